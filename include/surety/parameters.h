@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// All named parameters of the library in one list, with type, default, unit and range. Each is a
+// free function that starts a chain, and a member that continues one; CGAL's own parameters are
+// members of the same chain:
+//
+//   surety::parameters::feature_angle(40).roughness_angle(60).edge_is_constrained_map(constrained)
+//
+// A chain is a CGAL::Named_function_parameters, so CGAL's functions accept it as well.
+#ifndef SURETY_PARAMETERS_H
+#define SURETY_PARAMETERS_H
+
+#include <CGAL/Named_function_parameters.h>
+
+#include <cstddef>
+
+namespace surety {
+
+/// How the distance between the mesh and its original is bounded.
+enum class Deviation_bound {
+  direct,     ///< by a continuous map from the original to the mesh; never accumulates
+  accumulated ///< by the sum of the distances between successive meshes; cheap, pessimistic
+};
+
+/// \brief What a visitor is told.
+///
+/// A visitor has a member function `bool on_progress(const Progress&)`; returning `false` cancels
+/// the stage, which then leaves a valid mesh with a certificate that still holds.
+struct Progress
+{
+  const char* stage;  ///< name of the running stage
+  double fraction;    ///< of the stage's work that is done, an estimate in [0, 1]
+  std::size_t faces;  ///< of the current mesh
+};
+
+namespace internal {
+
+// Tags. Only their types matter: CGAL's get_parameter looks a value up by the type of its tag.
+struct feature_angle_t {};
+struct corner_angle_t {};
+struct deviation_bound_t {};
+struct shape_ratio_t {};
+struct shape_floor_t {};
+struct roughness_angle_t {};
+struct flip_rounds_t {};
+struct relative_slack_t {};
+struct maximum_subdivisions_t {};
+struct deviation_map_t {};
+
+inline constexpr feature_angle_t feature_angle{};
+inline constexpr corner_angle_t corner_angle{};
+inline constexpr deviation_bound_t deviation_bound{};
+inline constexpr shape_ratio_t shape_ratio{};
+inline constexpr shape_floor_t shape_floor{};
+inline constexpr roughness_angle_t roughness_angle{};
+inline constexpr flip_rounds_t flip_rounds{};
+inline constexpr relative_slack_t relative_slack{};
+inline constexpr maximum_subdivisions_t maximum_subdivisions{};
+inline constexpr deviation_map_t deviation_map{};
+
+// CGAL has a parameter of this name already: the same tag, or the two spellings would set
+// different values.
+using CGAL::internal_np::allow_self_intersections;
+using CGAL::internal_np::allow_self_intersections_t;
+
+/// The values that absent parameters take, for every function that reads them.
+namespace defaults {
+constexpr double feature_angle = 180;
+constexpr double corner_angle = 60;
+constexpr Deviation_bound deviation_bound = Deviation_bound::direct;
+constexpr double shape_ratio = 1;
+constexpr double shape_floor = 10;
+constexpr double roughness_angle = 45;
+constexpr bool allow_self_intersections = false;
+constexpr unsigned flip_rounds = 3;
+constexpr double relative_slack = 0.01;
+} // namespace defaults
+
+} // namespace internal
+
+/// \brief A chain of named parameters; starts at a function of `surety::parameters`.
+///
+/// Members that the class does not list are those of CGAL's own chain. After one of those only
+/// CGAL's members can follow, so put the listed ones first.
+template <class Value, class Tag, class Base = CGAL::internal_np::No_property>
+class Named_parameters : public CGAL::Named_function_parameters<Value, Tag, Base> {
+  using Chain = CGAL::Named_function_parameters<Value, Tag, Base>;
+
+  template <class Next_tag, class Next>
+  Named_parameters<Next, Next_tag, Chain> then(const Next& value) const
+  {
+    return Named_parameters<Next, Next_tag, Chain>(value, *this);
+  }
+
+public:
+  explicit Named_parameters(const Value& value) : Chain(value) {}
+  Named_parameters(const Value& value, const Base& base) : Chain(value, base) {}
+
+  /// \name Parameters of this library; see the functions of `surety::parameters`
+  /// @{
+  auto feature_angle(double degrees) const { return then<internal::feature_angle_t>(degrees); }
+  auto corner_angle(double degrees) const { return then<internal::corner_angle_t>(degrees); }
+  auto deviation_bound(Deviation_bound b) const { return then<internal::deviation_bound_t>(b); }
+  auto shape_ratio(double omega) const { return then<internal::shape_ratio_t>(omega); }
+  auto shape_floor(double quality) const { return then<internal::shape_floor_t>(quality); }
+  auto roughness_angle(double degrees) const { return then<internal::roughness_angle_t>(degrees); }
+  auto allow_self_intersections(bool allow) const
+  {
+    return then<internal::allow_self_intersections_t>(allow);
+  }
+  auto flip_rounds(unsigned rounds) const { return then<internal::flip_rounds_t>(rounds); }
+  auto relative_slack(double slack) const { return then<internal::relative_slack_t>(slack); }
+  auto maximum_subdivisions(std::size_t number) const
+  {
+    return then<internal::maximum_subdivisions_t>(number);
+  }
+  template <class Map>
+  auto deviation_map(const Map& map) const { return then<internal::deviation_map_t>(map); }
+  /// @}
+
+  /// \name CGAL's parameters that this library reads, with their meaning in CGAL
+  /// @{
+  template <class Map>
+  auto vertex_point_map(const Map& map) const { return then<CGAL::internal_np::vertex_point_t>(map); }
+  template <class Traits>
+  auto geom_traits(const Traits& traits) const
+  {
+    return then<CGAL::internal_np::geom_traits_t>(traits);
+  }
+  template <class Map>
+  auto edge_is_constrained_map(const Map& map) const
+  {
+    return then<CGAL::internal_np::edge_is_constrained_t>(map);
+  }
+  template <class Map>
+  auto vertex_is_constrained_map(const Map& map) const
+  {
+    return then<CGAL::internal_np::vertex_is_constrained_t>(map);
+  }
+  template <class Visitor>
+  auto visitor(const Visitor& visitor) const { return then<CGAL::internal_np::visitor_t>(visitor); }
+  template <class Number>
+  auto number_of_iterations(const Number& number) const
+  {
+    return then<CGAL::internal_np::number_of_iterations_t>(number);
+  }
+  template <class Seed>
+  auto random_seed(const Seed& seed) const { return then<CGAL::internal_np::random_seed_t>(seed); }
+  /// @}
+};
+
+namespace parameters {
+
+/// \brief Edges are ridges where the normals of their two faces make more than this angle.
+///
+/// In degrees, from 0 to 180 (`double`). Default: 180, no ridges. Borders and the edges of
+/// `edge_is_constrained_map` are features in any case.
+inline auto feature_angle(double degrees)
+{
+  return Named_parameters<double, internal::feature_angle_t>(degrees);
+}
+
+/// \brief A feature vertex with two feature edges is a corner if they turn by more than this angle.
+///
+/// In degrees, from 0 (every kink) to 180 (none), `double`. Default: 60. Vertices where another
+/// number of feature edges meet are corners in any case.
+inline auto corner_angle(double degrees)
+{
+  return Named_parameters<double, internal::corner_angle_t>(degrees);
+}
+
+/// \brief Which bound guards the tolerance (`Deviation_bound`). Default: `Deviation_bound::direct`.
+inline auto deviation_bound(Deviation_bound bound)
+{
+  return Named_parameters<Deviation_bound, internal::deviation_bound_t>(bound);
+}
+
+/// \brief Limit of the shape Q of a new face, relative to the worst of the faces that it replaces.
+///
+/// A ratio, at least 1 (`double`). Default: 1, never worse. A new face is admitted if its Q is at
+/// most max(`shape_ratio` * worst old Q, `shape_floor`).
+inline auto shape_ratio(double omega)
+{
+  return Named_parameters<double, internal::shape_ratio_t>(omega);
+}
+
+/// \brief The shape Q up to which a new face is admitted whatever it replaces.
+///
+/// A value of `quality()`, at least 1 (`double`); infinity turns the control of shapes off.
+/// Default: 10.
+inline auto shape_floor(double quality)
+{
+  return Named_parameters<double, internal::shape_floor_t>(quality);
+}
+
+/// \brief Largest angle between a new face and the normals of the original surface at its vertices.
+///
+/// In degrees, greater than 0, at most 180, which turns the control off (`double`). Default: 45.
+/// A face that is no worse than the ones that it replaces is always admitted.
+inline auto roughness_angle(double degrees)
+{
+  return Named_parameters<double, internal::roughness_angle_t>(degrees);
+}
+
+/// \brief Whether an operation may make the surface intersect itself (`bool`). Default: `false`.
+///
+/// Intersections that the input has already may stay in any case.
+inline auto allow_self_intersections(bool allow)
+{
+  return Named_parameters<bool, internal::allow_self_intersections_t>(allow);
+}
+
+/// \brief How many rounds of edge flips a simplification makes, each followed by more collapses.
+///
+/// A number of rounds (`unsigned`); 0 turns flips off. Default: 3.
+inline auto flip_rounds(unsigned rounds)
+{
+  return Named_parameters<unsigned, internal::flip_rounds_t>(rounds);
+}
+
+/// \brief Largest gap that a verifier of distances leaves between the truth and what it proves.
+///
+/// A fraction of the bound that it is asked for, greater than 0 (`double`). Default: 0.01.
+inline auto relative_slack(double slack)
+{
+  return Named_parameters<double, internal::relative_slack_t>(slack);
+}
+
+/// \brief Number of subdivisions after which a verifier of distances gives up, undecided.
+///
+/// A number of cells, at least 1 (`std::size_t`). Default: set by the function that reads it, in
+/// proportion to the number of faces.
+inline auto maximum_subdivisions(std::size_t number)
+{
+  return Named_parameters<std::size_t, internal::maximum_subdivisions_t>(number);
+}
+
+/// \brief Where to write the bound of each face on its distance to the original.
+///
+/// A writable property map from face descriptors to `double`, in mesh units. Default: the property
+/// map "f:deviation", which is added to the mesh.
+template <class Map>
+auto deviation_map(const Map& map)
+{
+  return Named_parameters<Map, internal::deviation_map_t>(map);
+}
+
+} // namespace parameters
+
+} // namespace surety
+
+#endif // SURETY_PARAMETERS_H
