@@ -28,8 +28,7 @@ using surety::Deviation_bound;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-struct Counting_visitor
-{
+struct Counting_visitor {
   std::size_t calls = 0;
   bool on_progress(const surety::Progress& progress) { return ++calls < progress.faces; }
 };
@@ -60,8 +59,9 @@ void expect_full_chain(const Np& np)
 {
   EXPECT_EQ(choose_parameter(get_parameter(np, tag::feature_angle), 180.0), 40);
   EXPECT_EQ(choose_parameter(get_parameter(np, tag::corner_angle), 60.0), 50);
-  EXPECT_EQ(choose_parameter(get_parameter(np, tag::deviation_bound), Deviation_bound::direct),
-            Deviation_bound::accumulated);
+  EXPECT_EQ(
+      choose_parameter(get_parameter(np, tag::deviation_bound), Deviation_bound::direct),
+      Deviation_bound::accumulated);
   EXPECT_EQ(choose_parameter(get_parameter(np, tag::shape_ratio), 1.0), 2);
   EXPECT_EQ(choose_parameter(get_parameter(np, tag::shape_floor), 10.0), 20);
   EXPECT_EQ(choose_parameter(get_parameter(np, tag::roughness_angle), 45.0), 60);
@@ -72,17 +72,15 @@ void expect_full_chain(const Np& np)
   EXPECT_EQ(get_parameter(np, tag::deviation_map), 3.5f);
 }
 
-TEST(Parameters, each_of_a_chain_is_read_back)
-{
-  expect_full_chain(full_chain());
-}
+TEST(Parameters, each_of_a_chain_is_read_back) { expect_full_chain(full_chain()); }
 
 TEST(Parameters, each_can_start_a_chain)
 {
   EXPECT_EQ(get_parameter(p::feature_angle(40), tag::feature_angle), 40);
   EXPECT_EQ(get_parameter(p::corner_angle(50), tag::corner_angle), 50);
-  EXPECT_EQ(get_parameter(p::deviation_bound(Deviation_bound::accumulated), tag::deviation_bound),
-            Deviation_bound::accumulated);
+  EXPECT_EQ(
+      get_parameter(p::deviation_bound(Deviation_bound::accumulated), tag::deviation_bound),
+      Deviation_bound::accumulated);
   EXPECT_EQ(get_parameter(p::shape_ratio(2), tag::shape_ratio), 2);
   EXPECT_EQ(get_parameter(p::shape_floor(20), tag::shape_floor), 20);
   EXPECT_EQ(get_parameter(p::roughness_angle(60), tag::roughness_angle), 60);
@@ -155,8 +153,9 @@ TEST(Parameters, the_first_name_of_a_chain_does_not_shadow_a_later_one)
 TEST(Parameters, cgal_reads_our_chain)
 {
   Mesh mesh;
-  CGAL::make_tetrahedron(Kernel::Point_3(0, 0, 0), Kernel::Point_3(1, 0, 0),
-                         Kernel::Point_3(0, 1, 0), Kernel::Point_3(0, 0, 1), mesh);
+  CGAL::make_tetrahedron(
+      Kernel::Point_3(0, 0, 0), Kernel::Point_3(1, 0, 0), Kernel::Point_3(0, 1, 0),
+      Kernel::Point_3(0, 0, 1), mesh);
   auto doubled = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_3>("v:doubled").first;
   for (const auto v : mesh.vertices()) {
     doubled[v] = CGAL::ORIGIN + 2 * (mesh.point(v) - CGAL::ORIGIN);

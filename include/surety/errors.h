@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The one exception that the library throws on purpose: an argument or an input mesh that a function
-// cannot work with. It keeps its parts apart, so that a program can present them in its own way.
+// The one exception that the library throws on purpose: an argument or an input mesh that a
+// function cannot work with. It keeps its parts apart, so that a program can present them in its
+// own way.
 #ifndef SURETY_ERRORS_H
 #define SURETY_ERRORS_H
 
@@ -16,15 +17,16 @@ namespace surety {
 ///
 /// `what()` reads `<function>: <argument>: <problem>; <remedy>`, without the last part when no
 /// remedy is known.
-class Invalid_input : public std::invalid_argument {
+class Invalid_input : public std::invalid_argument
+{
 public:
-  Invalid_input(std::string function, std::string argument, std::string problem,
-                std::string remedy = "")
-    : std::invalid_argument(sentence(function, argument, problem, remedy))
-    , function_(std::move(function))
-    , argument_(std::move(argument))
-    , problem_(std::move(problem))
-    , remedy_(std::move(remedy))
+  Invalid_input(
+      std::string function, std::string argument, std::string problem, std::string remedy = "")
+    : std::invalid_argument(sentence(function, argument, problem, remedy)),
+      function_(std::move(function)),
+      argument_(std::move(argument)),
+      problem_(std::move(problem)),
+      remedy_(std::move(remedy))
   {}
 
   /// The public function that refused.
@@ -37,8 +39,9 @@ public:
   const std::string& remedy() const { return remedy_; }
 
 private:
-  static std::string sentence(const std::string& function, const std::string& argument,
-                              const std::string& problem, const std::string& remedy)
+  static std::string sentence(
+      const std::string& function, const std::string& argument, const std::string& problem,
+      const std::string& remedy)
   {
     const std::string text = function + ": " + argument + ": " + problem;
     return remedy.empty() ? text : text + "; " + remedy;

@@ -26,11 +26,10 @@ enum class Deviation_bound {
 ///
 /// A visitor has a member function `bool on_progress(const Progress&)`; returning `false` cancels
 /// the stage, which then leaves a valid mesh with a certificate that still holds.
-struct Progress
-{
-  const char* stage;  ///< name of the running stage
-  double fraction;    ///< of the stage's work that is done, an estimate in [0, 1]
-  std::size_t faces;  ///< of the current mesh
+struct Progress {
+  const char* stage; ///< name of the running stage
+  double fraction;   ///< of the stage's work that is done, an estimate in [0, 1]
+  std::size_t faces; ///< of the current mesh
 };
 
 namespace internal {
@@ -83,7 +82,8 @@ constexpr double relative_slack = 0.01;
 /// Members that the class does not list are those of CGAL's own chain. After one of those only
 /// CGAL's members can follow, so put the listed ones first.
 template <class Value, class Tag, class Base = CGAL::internal_np::No_property>
-class Named_parameters : public CGAL::Named_function_parameters<Value, Tag, Base> {
+class Named_parameters : public CGAL::Named_function_parameters<Value, Tag, Base>
+{
   using Chain = CGAL::Named_function_parameters<Value, Tag, Base>;
 
   template <class Next_tag, class Next>
@@ -115,13 +115,19 @@ public:
     return then<internal::maximum_subdivisions_t>(number);
   }
   template <class Map>
-  auto deviation_map(const Map& map) const { return then<internal::deviation_map_t>(map); }
+  auto deviation_map(const Map& map) const
+  {
+    return then<internal::deviation_map_t>(map);
+  }
   /// @}
 
   /// \name CGAL's parameters that this library reads, with their meaning in CGAL
   /// @{
   template <class Map>
-  auto vertex_point_map(const Map& map) const { return then<CGAL::internal_np::vertex_point_t>(map); }
+  auto vertex_point_map(const Map& map) const
+  {
+    return then<CGAL::internal_np::vertex_point_t>(map);
+  }
   template <class Traits>
   auto geom_traits(const Traits& traits) const
   {
@@ -138,14 +144,20 @@ public:
     return then<CGAL::internal_np::vertex_is_constrained_t>(map);
   }
   template <class Visitor>
-  auto visitor(const Visitor& visitor) const { return then<CGAL::internal_np::visitor_t>(visitor); }
+  auto visitor(const Visitor& visitor) const
+  {
+    return then<CGAL::internal_np::visitor_t>(visitor);
+  }
   template <class Number>
   auto number_of_iterations(const Number& number) const
   {
     return then<CGAL::internal_np::number_of_iterations_t>(number);
   }
   template <class Seed>
-  auto random_seed(const Seed& seed) const { return then<CGAL::internal_np::random_seed_t>(seed); }
+  auto random_seed(const Seed& seed) const
+  {
+    return then<CGAL::internal_np::random_seed_t>(seed);
+  }
   /// @}
 };
 

@@ -31,8 +31,7 @@ namespace surety {
 namespace internal {
 
 /// What is wrong with a mesh, and what repairs it.
-struct Defect
-{
+struct Defect {
   std::string problem;
   std::string remedy;
 };
@@ -56,8 +55,8 @@ class Mesh_inspector
 
 public:
   Mesh_inspector(const Mesh& mesh, const NamedParameters& np)
-    : mesh_(mesh)
-    , points_(CGAL::parameters::choose_parameter(
+    : mesh_(mesh),
+      points_(CGAL::parameters::choose_parameter(
           CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_point),
           get(CGAL::vertex_point, mesh)))
   {}
@@ -66,11 +65,11 @@ public:
   {
     using Check = std::optional<Defect> (Mesh_inspector::*)() const;
     constexpr std::array<Check, 10> checks
-        = {&Mesh_inspector::no_face,          &Mesh_inspector::isolated_vertex,
-           &Mesh_inspector::larger_face,      &Mesh_inspector::infinite_coordinate,
-           &Mesh_inspector::extreme_size,     &Mesh_inspector::degenerate_face,
-           &Mesh_inspector::duplicate_face,   &Mesh_inspector::double_edge,
-           &Mesh_inspector::pinched_vertex,   &Mesh_inspector::inconsistent_connectivity};
+        = {&Mesh_inspector::no_face,        &Mesh_inspector::isolated_vertex,
+           &Mesh_inspector::larger_face,    &Mesh_inspector::infinite_coordinate,
+           &Mesh_inspector::extreme_size,   &Mesh_inspector::degenerate_face,
+           &Mesh_inspector::duplicate_face, &Mesh_inspector::double_edge,
+           &Mesh_inspector::pinched_vertex, &Mesh_inspector::inconsistent_connectivity};
     for (const Check check : checks) {
       if (auto defect = (this->*check)()) return defect;
     }
@@ -169,7 +168,7 @@ private:
           const Halfedge h = halfedge(f, mesh_);
           const Halfedge o = opposite(h, mesh_);
           return face(o, mesh_) != Graph::null_face()
-                 && target(next(o, mesh_), mesh_) == target(next(h, mesh_), mesh_);
+              && target(next(o, mesh_), mesh_) == target(next(h, mesh_), mesh_);
         },
         [this](Face f) {
           const Face other = face(opposite(halfedge(f, mesh_), mesh_), mesh_);
@@ -193,9 +192,10 @@ private:
       const auto i = static_cast<std::uint32_t>(v);
       for (std::uint32_t k = offset[i]; k < offset[i + 1]; ++k) {
         if (std::exchange(stamp[larger[k]], i) != i) continue;
-        return Defect{"two edges join " + name(v) + " and " + name(Vertex(larger[k])),
-                      "split one of them with CGAL::Euler::split_edge, then triangulate with "
-                      "CGAL::Polygon_mesh_processing::triangulate_faces"};
+        return Defect{
+            "two edges join " + name(v) + " and " + name(Vertex(larger[k])),
+            "split one of them with CGAL::Euler::split_edge, then triangulate with "
+            "CGAL::Polygon_mesh_processing::triangulate_faces"};
       }
     }
     return std::nullopt;
@@ -225,15 +225,16 @@ private:
   std::optional<Defect> inconsistent_connectivity() const
   {
     if (CGAL::is_valid_polygon_mesh(mesh_)) return std::nullopt;
-    return Defect{"the connectivity is inconsistent (CGAL::is_valid_polygon_mesh is false)",
-                  "rebuild it with CGAL::Polygon_mesh_processing::orient_polygon_soup and "
-                  "polygon_soup_to_polygon_mesh"};
+    return Defect{
+        "the connectivity is inconsistent (CGAL::is_valid_polygon_mesh is false)",
+        "rebuild it with CGAL::Polygon_mesh_processing::orient_polygon_soup and "
+        "polygon_soup_to_polygon_mesh"};
   }
 
   /// The defect of the first element that is bad, with the number of the others.
   template <class Range, class Is_bad, class Describe>
-  std::optional<Defect> first_of(const Range& range, const Is_bad& is_bad, const Describe& describe,
-                                 const char* remedy) const
+  std::optional<Defect> first_of(
+      const Range& range, const Is_bad& is_bad, const Describe& describe, const char* remedy) const
   {
     const auto first = std::find_if(range.begin(), range.end(), is_bad);
     if (first == range.end()) return std::nullopt;
@@ -245,8 +246,9 @@ private:
 
   std::pair<std::uint32_t, std::uint32_t> ends(typename Graph::edge_descriptor e) const
   {
-    return std::minmax({static_cast<std::uint32_t>(source(e, mesh_)),
-                        static_cast<std::uint32_t>(target(e, mesh_))});
+    return std::minmax(
+        {static_cast<std::uint32_t>(source(e, mesh_)),
+         static_cast<std::uint32_t>(target(e, mesh_))});
   }
 
   std::array<Vertex, 3> corners(Face f) const
@@ -267,13 +269,9 @@ private:
     return {p[0], p[1], p[2]};
   }
 
-  /// Removed elements keep their index until the mesh is compacted: one past the largest index.
-  std::size_t index_bound() const
-  {
-    std::size_t bound = 0;
-    for (const Vertex v : vertices(mesh_)) bound = (std::max)(bound, std::size_t(v) + 1);
-    return bound;
-  }
+  /// One past the largest index: removed vertices, which keep theirs until the mesh is compacted,
+  /// are counted here though no iteration meets them.
+  std::size_t index_bound() const { return num_vertices(mesh_); }
 
   /// Users count elements in the order of their file, which is the order of iteration.
   std::string name(Vertex v) const
@@ -287,7 +285,8 @@ private:
     Halfedge h = halfedge(f, mesh_);
     int shown = 0;
     do {
-      list += (list.empty() ? "" : ", ") + std::to_string(position(vertices(mesh_), target(h, mesh_)));
+      list += (list.empty() ? "" : ", ")
+          + std::to_string(position(vertices(mesh_), target(h, mesh_)));
       h = next(h, mesh_);
     } while (h != halfedge(f, mesh_) && ++shown < 8);
     if (h != halfedge(f, mesh_)) list += ", ...";
@@ -310,8 +309,8 @@ private:
   }
 
   using Points = std::decay_t<decltype(CGAL::parameters::choose_parameter(
-      CGAL::parameters::get_parameter(std::declval<const NamedParameters&>(),
-                                      CGAL::internal_np::vertex_point),
+      CGAL::parameters::get_parameter(
+          std::declval<const NamedParameters&>(), CGAL::internal_np::vertex_point),
       get(CGAL::vertex_point, std::declval<const Mesh&>())))>;
 
   const Mesh& mesh_;
@@ -322,16 +321,17 @@ private:
 ///
 /// Indices in the text are positions in iteration order. Reads `vertex_point_map`.
 template <class Mesh, class NamedParameters = CGAL::parameters::Default_named_parameters>
-std::optional<Defect> find_defect(const Mesh& mesh,
-                                  const NamedParameters& np = CGAL::parameters::default_values())
+std::optional<Defect> find_defect(
+    const Mesh& mesh, const NamedParameters& np = CGAL::parameters::default_values())
 {
   return Mesh_inspector<Mesh, NamedParameters>(mesh, np).first_defect();
 }
 
 /// Throws `Invalid_input` if the mesh has a defect.
 template <class Mesh, class NamedParameters = CGAL::parameters::Default_named_parameters>
-void require_valid_mesh(const Mesh& mesh, const char* function, const char* argument,
-                        const NamedParameters& np = CGAL::parameters::default_values())
+void require_valid_mesh(
+    const Mesh& mesh, const char* function, const char* argument,
+    const NamedParameters& np = CGAL::parameters::default_values())
 {
   if (const auto defect = find_defect(mesh, np)) {
     throw Invalid_input(function, argument, defect->problem, defect->remedy);
@@ -359,13 +359,13 @@ inline void require_positive(double value, const char* function, const char* arg
 }
 
 /// Throws `Invalid_input` unless low <= value <= high; a bound may be infinite, NaN is refused.
-inline void require_in_range(double value, double low, double high, const char* function,
-                             const char* argument)
+inline void require_in_range(
+    double value, double low, double high, const char* function, const char* argument)
 {
   if (value >= low && value <= high) return;
-  throw Invalid_input(function, argument,
-                      to_text(value) + " is not in the range from " + to_text(low) + " to "
-                          + to_text(high));
+  throw Invalid_input(
+      function, argument,
+      to_text(value) + " is not in the range from " + to_text(low) + " to " + to_text(high));
 }
 
 } // namespace internal
