@@ -259,6 +259,19 @@ auto deviation_map(const Map& map)
 
 } // namespace parameters
 
+namespace internal {
+
+/// The same chain as CGAL knows it. Some functions of CGAL are overloaded on the class of the
+/// chain, and would take a derived class for another of their arguments.
+template <class Value, class Tag, class Base>
+const CGAL::Named_function_parameters<Value, Tag, Base>& as_cgal(
+    const CGAL::Named_function_parameters<Value, Tag, Base>& np)
+{
+  return np;
+}
+
+} // namespace internal
+
 } // namespace surety
 
 #endif // SURETY_PARAMETERS_H

@@ -7,6 +7,7 @@
 #include <surety/errors.h>
 #include <surety/internal/statistics/topology.h>
 #include <surety/internal/statistics/triangle.h>
+#include <surety/parameters.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
@@ -90,7 +91,7 @@ std::size_t count_self_intersections(const Mesh& mesh, const NamedParameters& np
 {
   using Face = typename boost::graph_traits<Mesh>::face_descriptor;
   std::vector<std::pair<Face, Face>> pairs;
-  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs), np);
+  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs), as_cgal(np));
   return pairs.size();
 }
 
@@ -142,7 +143,7 @@ Mesh_statistics mesh_statistics(
   result.euler = topology.euler();
   result.genus_sum = topology.genus_sum();
 
-  const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh, np);
+  const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh, internal::as_cgal(np));
   result.diagonal
       = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
   internal::measure_faces(

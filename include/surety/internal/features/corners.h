@@ -17,7 +17,7 @@ namespace internal {
 /// By how much the curve turns that passes a -> p -> b: 0 where it is straight, pi at a cusp.
 inline double turn(const Vector& a, const Vector& p, const Vector& b)
 {
-  return angle_between(p - a, b - p);
+  return angle_between(unit(p - a), unit(b - p));
 }
 
 /// Whether curves of feature edges end, branch, or turn by more than an angle (in radians) at v.

@@ -60,8 +60,8 @@ Vector sector_normal(
   for (const Halfedge h : corners) {
     const Vector p = to_vector(get(points, target(h, mesh)));
     const double angle = angle_between(
-        to_vector(get(points, source(h, mesh))) - p,
-        to_vector(get(points, target(next(h, mesh), mesh))) - p);
+        unit(to_vector(get(points, source(h, mesh))) - p),
+        unit(to_vector(get(points, target(next(h, mesh), mesh))) - p));
     sum += angle * normals[face(h, mesh)];
   }
   return unit(sum);
