@@ -48,7 +48,9 @@ public:
     const std::size_t length = (std::min)(rest_.find(' '), rest_.size());
     const std::string_view result = rest_.substr(0, length);
     if (result.empty()) fail("a word is missing");
-    rest_.remove_prefix((std::min)(length + 1, rest_.size()));
+    const bool more
+        = length + 1 < rest_.size(); // a space at the end of the line stays, as an error
+    rest_.remove_prefix(more ? length + 1 : length);
     return result;
   }
 
