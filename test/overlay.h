@@ -116,8 +116,7 @@ void record_ridges(Mapped_pair& pair, const Is_ridge& is_ridge)
 class Central_projection
 {
 public:
-  Central_projection(
-      const Mesh& input, const Mesh& output, const std::vector<std::uint32_t>& pins)
+  Central_projection(const Mesh& input, const Mesh& output, const std::vector<std::uint32_t>& pins)
     : input_(input), output_(output)
   {
     record_.images.resize(input.num_vertices(), at_vertex(~0u));
@@ -167,8 +166,9 @@ private:
         const auto [a, b] = std::minmax({output_.vertex(m, 0), output_.vertex(m, 1)});
         if (const auto lambda = crossing(s, t, a, b)) crossings.push_back({a, b, *lambda});
       }
-      std::sort(crossings.begin(), crossings.end(),
-          [](const auto& c, const auto& d) { return c.lambda < d.lambda; });
+      std::sort(crossings.begin(), crossings.end(), [](const auto& c, const auto& d) {
+        return c.lambda < d.lambda;
+      });
       if (!crossings.empty()) sorted[{s, t}] = crossings;
     }
     record_.offsets = {0};
@@ -212,13 +212,13 @@ inline Mapped_pair sphere_on_hull(int levels, std::size_t vertices, std::uint64_
   random.shuffle(chosen);
   // The six extreme ones first: then the hull surrounds the origin.
   for (int k = 0; k < 6; ++k) {
-    const auto along = [&](std::uint32_t v) {
-      return (k % 2 ? 1 : -1) * pair.input.point(Vertex(v))[k / 2];
-    };
+    const auto along
+        = [&](std::uint32_t v) { return (k % 2 ? 1 : -1) * pair.input.point(Vertex(v))[k / 2]; };
     const auto rest = chosen.begin() + k;
-    std::iter_swap(rest, std::max_element(rest, chosen.end(), [&](std::uint32_t u, std::uint32_t v) {
-      return along(u) < along(v);
-    }));
+    std::iter_swap(
+        rest, std::max_element(rest, chosen.end(), [&](std::uint32_t u, std::uint32_t v) {
+          return along(u) < along(v);
+        }));
   }
   chosen.resize(vertices);
   std::vector<Point> points;

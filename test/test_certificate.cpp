@@ -30,7 +30,8 @@ Certificate_check check(const Mapped_pair& pair, double tolerance = generous)
 }
 
 /// The expected first word of the reason.
-void expect_refused(const Mapped_pair& pair, const std::string& invariant, double tolerance = generous)
+void expect_refused(
+    const Mapped_pair& pair, const std::string& invariant, double tolerance = generous)
 {
   const Certificate_check answer = check(pair, tolerance);
   EXPECT_FALSE(answer.holds);
@@ -49,10 +50,14 @@ void expect_accepted(const Mapped_pair& pair, double tolerance = generous)
   for (const double b : answer.face_bounds) EXPECT_LE(b, answer.bound);
 }
 
-Correspondence::Image& image_of(Mapped_pair& pair, std::uint32_t v) { return pair.record.images[v]; }
+Correspondence::Image& image_of(Mapped_pair& pair, std::uint32_t v)
+{
+  return pair.record.images[v];
+}
 
 /// The crossings of one edge, replaced.
-void set_crossings(Mapped_pair& pair, std::size_t edge, const std::vector<Correspondence::Crossing>& crossings)
+void set_crossings(
+    Mapped_pair& pair, std::size_t edge, const std::vector<Correspondence::Crossing>& crossings)
 {
   auto& r = pair.record;
   const auto first = r.offsets[edge], last = r.offsets[edge + 1];
@@ -87,8 +92,9 @@ Mesh bipyramid(std::uint32_t n)
 
 TEST(Check_certificate, accepts_the_identity_with_bound_zero)
 {
-  for (const Mesh& mesh : {cube(2), icosphere(2), torus(8, 6), grid(4), annulus(9, 2), saddle(5),
-           two_sheets(3, 0.1), plate_with_holes(2), bipyramid(3), spheres_at_scales(3)}) {
+  for (const Mesh& mesh :
+       {cube(2), icosphere(2), torus(8, 6), grid(4), annulus(9, 2), saddle(5), two_sheets(3, 0.1),
+        plate_with_holes(2), bipyramid(3), spheres_at_scales(3)}) {
     expect_accepted(identity(mesh));
     EXPECT_EQ(check(identity(mesh)).bound, 0);
   }
@@ -97,7 +103,8 @@ TEST(Check_certificate, accepts_the_identity_with_bound_zero)
 TEST(Check_certificate, accepts_a_tetrahedron_and_a_single_triangle)
 {
   Mesh tetrahedron;
-  CGAL::make_tetrahedron(Point(0, 0, 0), Point(0, 1, 0), Point(1, 0, 0), Point(0, 0, 1), tetrahedron);
+  CGAL::make_tetrahedron(
+      Point(0, 0, 0), Point(0, 1, 0), Point(1, 0, 0), Point(0, 0, 1), tetrahedron);
   expect_accepted(identity(tetrahedron));
   Mesh triangle;
   CGAL::make_triangle(Point(0, 0, 0), Point(0, 1, 0), Point(1, 0, 0), triangle);
@@ -122,14 +129,16 @@ TEST(Check_certificate, accepts_a_refinement_far_from_the_origin)
   EXPECT_LT(check(pair).bound, 0x1p-30);
 }
 
-class Overlay : public testing::TestWithParam<unsigned> {
+class Overlay : public testing::TestWithParam<unsigned>
+{
 protected:
   const unsigned seed = GetParam();
 };
 
 TEST_P(Overlay, accepts_central_projections)
 {
-  for (const std::size_t vertices : {6, 10, 30, 100}) expect_accepted(sphere_on_hull(2, vertices, seed));
+  for (const std::size_t vertices : {6, 10, 30, 100})
+    expect_accepted(sphere_on_hull(2, vertices, seed));
   for (const double keep : {0.0, 0.02, 0.2, 0.7}) expect_accepted(square_on_square(12, keep, seed));
 }
 
@@ -143,8 +152,11 @@ double brute_force_bound(const Mapped_pair& pair)
       return std::sqrt(CGAL::squared_distance(x, Kernel::Segment_3(at(image.a), at(image.b))));
     }
     const auto h = pair.output.halfedge(Face(image.a));
-    return std::sqrt(CGAL::squared_distance(x, Kernel::Triangle_3(at(pair.output.source(h)),
-        at(pair.output.target(h)), at(pair.output.target(pair.output.next(h))))));
+    return std::sqrt(CGAL::squared_distance(
+        x,
+        Kernel::Triangle_3(
+            at(pair.output.source(h)), at(pair.output.target(h)),
+            at(pair.output.target(pair.output.next(h))))));
   };
   double bound = 0;
   for (std::uint32_t v = 0; v < pair.record.images.size(); ++v) {
@@ -182,8 +194,8 @@ TEST_P(Overlay, every_face_bound_covers_the_samples_of_its_face)
   for (const Face f : pair.output.faces()) {
     Mesh face;
     const auto h = pair.output.halfedge(f);
-    CGAL::make_triangle(pair.output.point(pair.output.source(h)),
-        pair.output.point(pair.output.target(h)),
+    CGAL::make_triangle(
+        pair.output.point(pair.output.source(h)), pair.output.point(pair.output.target(h)),
         pair.output.point(pair.output.target(pair.output.next(h))), face);
     EXPECT_GE(answer.face_bounds[f], sampled_distance_to(face, pair.input, seed, 6));
   }
@@ -241,15 +253,25 @@ TEST(Check_certificate, refuses_a_record_that_does_not_fit)
            [](auto& r) { r.images.clear(); },
            [&](auto& r) { r.images[0].a = huge; },
            [&](auto& r) { r.images[0] = at_face(huge); },
-           [&](auto& r) { r.images[0] = {Kind::edge, huge, huge + 1}; },
-           [](auto& r) { r.images[0] = {Kind::edge, 3, 3}; },
-           [](auto& r) { r.images[0] = {Kind::vertex, 0, 1}; },
-           [](auto& r) { r.images[0] = {Kind(7), 0, 0}; },
+           [&](auto& r) {
+             r.images[0] = {Kind::edge, huge, huge + 1};
+           },
+           [](auto& r) {
+             r.images[0] = {Kind::edge, 3, 3};
+           },
+           [](auto& r) {
+             r.images[0] = {Kind::vertex, 0, 1};
+           },
+           [](auto& r) {
+             r.images[0] = {Kind(7), 0, 0};
+           },
            [](auto& r) { r.edges.pop_back(); },
            [](auto& r) { std::swap(r.edges[0], r.edges[1]); },
            [](auto& r) { std::swap(r.edges[0][0], r.edges[0][1]); },
            [](auto& r) { r.edges[1] = r.edges[0]; },
-           [&](auto& r) { r.edges.back() = {huge, huge + 1}; },
+           [&](auto& r) {
+             r.edges.back() = {huge, huge + 1};
+           },
            [](auto& r) { r.offsets.pop_back(); },
            [](auto& r) { r.offsets[0] = 1; },
            [&](auto& r) { r.offsets[1] = huge; },
@@ -260,8 +282,12 @@ TEST(Check_certificate, refuses_a_record_that_does_not_fit)
            [](auto& r) { r.crossings[0].lambda = NAN; },
            [](auto& r) { std::swap(r.crossings[0].a, r.crossings[0].b); },
            [&](auto& r) { r.crossings[0].b = huge; },
-           [](auto& r) { r.ridges = {{1, 0}}; },
-           [&](auto& r) { r.ridges = {{0, huge}}; }}) {
+           [](auto& r) {
+             r.ridges = {{1, 0}};
+           },
+           [&](auto& r) {
+             r.ridges = {{0, huge}};
+           }}) {
     Mapped_pair broken = sound;
     mutate(broken.record);
     expect_refused(broken, "structure");
@@ -377,8 +403,9 @@ TEST(Check_certificate, refuses_a_recorded_bound_that_is_too_good)
   EXPECT_FALSE(with_bound(NAN).holds);
 }
 
-/// The images around vertex v of a mesh that maps to itself: v goes into the face (v, x_0, x_1), and
-/// its edges turn to x_2, x_3, ... across the spokes, `forward` of them one way and the others back.
+/// The images around vertex v of a mesh that maps to itself: v goes into the face (v, x_0, x_1),
+/// and its edges turn to x_2, x_3, ... across the spokes, `forward` of them one way and the others
+/// back.
 Mapped_pair wound_about(const Mesh& mesh, Vertex v, std::size_t forward)
 {
   Mapped_pair pair = identity(mesh);
@@ -397,10 +424,13 @@ Mapped_pair wound_about(const Mesh& mesh, Vertex v, std::size_t forward)
   std::map<std::array<std::uint32_t, 2>, std::vector<Correspondence::Crossing>> crossings;
   for (std::size_t k = 2; k < n; ++k) {
     std::vector<std::uint32_t> spokes;
-    if (k <= forward) for (std::size_t i = 1; i < k; ++i) spokes.push_back(link[i]);
-    else for (std::size_t i = n; i > k; --i) spokes.push_back(link[i % n]);
+    if (k <= forward)
+      for (std::size_t i = 1; i < k; ++i) spokes.push_back(link[i]);
+    else
+      for (std::size_t i = n; i > k; --i) spokes.push_back(link[i % n]);
     if (v > link[k]) std::reverse(spokes.begin(), spokes.end());
-    auto& list = crossings[{std::min<std::uint32_t>(v, link[k]), std::max<std::uint32_t>(v, link[k])}];
+    auto& list
+        = crossings[{std::min<std::uint32_t>(v, link[k]), std::max<std::uint32_t>(v, link[k])}];
     for (std::size_t i = 0; i < spokes.size(); ++i) {
       const Image e = on_edge(v, spokes[i]);
       list.push_back({e.a, e.b, (double(i) + 0.5) / double(spokes.size())});
@@ -454,7 +484,8 @@ TEST(Check_certificate, degree_refuses_a_component_that_is_not_covered)
 TEST(Check_certificate, degree_refuses_a_component_without_area)
 {
   Mapped_pair pair = identity(two_spheres(1, 0.1));
-  for (std::uint32_t v = 0; v < pair.record.images.size() / 2; ++v) image_of(pair, v) = at_vertex(0);
+  for (std::uint32_t v = 0; v < pair.record.images.size() / 2; ++v)
+    image_of(pair, v) = at_vertex(0);
   expect_refused(pair, "degree");
 }
 
@@ -566,8 +597,8 @@ TEST(Check_certificate, I5_refuses_a_ridge_through_a_face)
   const Mapped_pair sound = cube_with_ridges(2);
   for (const auto e : sound.input.edges()) {
     const std::uint32_t u = sound.input.vertex(e, 0), v = sound.input.vertex(e, 1);
-    const bool in_face = sound.record.images[u].kind == Kind::face
-                         || sound.record.images[v].kind == Kind::face;
+    const bool in_face
+        = sound.record.images[u].kind == Kind::face || sound.record.images[v].kind == Kind::face;
     if (!in_face) continue;
     Mapped_pair broken = sound;
     broken.record.ridges.push_back({std::min(u, v), std::max(u, v)});
