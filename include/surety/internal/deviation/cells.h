@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Invariant I3: the image of the boundary of a T triangle extends over the triangle, cell by cell,
+// each cell inside one face of M.
+#ifndef SURETY_INTERNAL_DEVIATION_CELLS_H
+#define SURETY_INTERNAL_DEVIATION_CELLS_H
+
+#include <surety/internal/deviation/map.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace surety::internal {
+
+/// A point on the boundary of a T triangle, by the element of M that holds its image. The faces
+/// that contain the element are `face` for an item on a face or edge; a vertex lies in many.
+struct Item {
+  Element element;
+  Index face[2];
+
+  bool is_vertex() const { return element.kind() == Element::Kind::vertex; }
+};
+
+/// Searches a triangulation of the polygon of items, in cyclic order, each triangle of which has
+/// its three items in one closed face of M. The polygon is in (weakly) convex position on the
+/// boundary of a T triangle and maps linearly triangle by triangle, so that any triangulation found
+/// is a proof of I3; none found refuses the operation.
+///
+/// Ears are cut greedily. An ear at a node whose neighbours share a face with it is the step
+/// "cancel equal adjacent crossings"; what remains about one pinned corner is its fan. Pinned
+/// corners are kept as long as anything else can be cut, since only they can absorb a residue.
+class Cell_search
+{
+public:
+  /// Faces answers has_vertex(face, vertex) and face_of(u, v, w) for the mesh after the operation.
+  template <class Faces>
+  bool triangulates(std::vector<Item>& items, const Faces& faces)
+  {
+    bool cut_vertices = false;
+    while (items.size() > 3) {
+      const std::size_t before = items.size();
+      cut_ears(items, faces, cut_vertices);
+      if (items.size() < before) {
+        cut_vertices = false;
+        // The next pass starts elsewhere, so that ears across the seam are seen.
+        std::rotate(items.begin(), items.begin() + 2, items.end());
+      } else if (rotations_++ < 1) {
+        std::rotate(items.begin(), items.begin() + 2, items.end());
+        continue;
+      } else if (!cut_vertices) {
+        cut_vertices = true;
+      } else {
+        rotations_ = 0;
+        return false;
+      }
+      rotations_ = 0;
+    }
+    rotations_ = 0;
+    return in_one_face(items[0], items[1], items[2], faces);
+  }
+
+  template <class Faces>
+  static bool in_one_face(const Item& a, const Item& b, const Item& c, const Faces& faces)
+  {
+    const Item& guide = !a.is_vertex() ? a : !b.is_vertex() ? b : c;
+    if (guide.is_vertex())
+      return faces.face_of(a.element.id(), b.element.id(), c.element.id()) != none;
+    for (const Index f : guide.face)
+      if (f != none && lies_in(a, f, faces) && lies_in(b, f, faces) && lies_in(c, f, faces))
+        return true;
+    return false;
+  }
+
+private:
+  template <class Faces>
+  static bool lies_in(const Item& item, Index f, const Faces& faces)
+  {
+    if (item.is_vertex()) return faces.has_vertex(f, item.element.id());
+    return item.face[0] == f || item.face[1] == f;
+  }
+
+  template <class Faces>
+  void cut_ears(std::vector<Item>& items, const Faces& faces, bool cut_vertices)
+  {
+    std::size_t top = 0;
+    std::size_t left = items.size();
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      items[top++] = items[i];
+      while (top >= 3 && left > 3 && (cut_vertices || !items[top - 2].is_vertex())
+             && in_one_face(items[top - 3], items[top - 2], items[top - 1], faces)) {
+        items[top - 2] = items[top - 1];
+        --top, --left;
+      }
+    }
+    items.resize(top);
+  }
+
+  int rotations_ = 0;
+};
+
+} // namespace surety::internal
+
+#endif // SURETY_INTERNAL_DEVIATION_CELLS_H

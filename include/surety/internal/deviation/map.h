@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// phi : T -> M, the continuous map behind the direct bound, as it is stored: the image of every
+// vertex of T, and along every edge of T the nodes where its image crosses edges of M.
+#ifndef SURETY_INTERNAL_DEVIATION_MAP_H
+#define SURETY_INTERNAL_DEVIATION_MAP_H
+
+#include <surety/internal/linear.h>
+
+#include <vector>
+
+namespace surety::internal {
+
+/// An element of M: a vertex, the closest point of an edge, or the closest point of a face.
+class Element
+{
+public:
+  enum class Kind : Index { vertex, edge, face };
+
+  Element() = default;
+  Element(Kind kind, Index id) : code_(id << 2 | static_cast<Index>(kind)) {}
+
+  Kind kind() const { return static_cast<Kind>(code_ & 3); }
+  Index id() const { return code_ >> 2; }
+  bool is(Kind kind, Index id) const { return *this == Element(kind, id); }
+  bool operator==(const Element& other) const { return code_ == other.code_; }
+
+private:
+  Index code_ = none;
+};
+
+/// A node: the point x(lambda) of a T edge, mapped to the closest point of an M edge. Nodes are
+/// linked twice, along their T edge in order and in the (unordered) list of their M edge.
+struct Node {
+  Index t_edge, m_edge;
+  Index next_on_t;
+  Index next_on_m, previous_on_m;
+  double lambda;
+};
+
+class Map
+{
+public:
+  /// The identity: every vertex of T is pinned to the vertex of M that it is.
+  Map(Index vertices, Index t_edges, Index m_edges, Index faces)
+    : image_(vertices), next_assigned_(vertices, none), first_on_face_(faces, none),
+      first_on_edge_(m_edges, none), first_node_of_t_(t_edges, none),
+      first_node_of_m_(m_edges, none)
+  {
+    for (Index v = 0; v < vertices; ++v) image_[v] = Element(Element::Kind::vertex, v);
+  }
+
+  Element image(Index v) const { return image_[v]; }
+  const Node& node(Index n) const { return nodes_[n]; }
+  Index first_node_of_t(Index t_edge) const { return first_node_of_t_[t_edge]; }
+  Index first_node_of_m(Index m_edge) const { return first_node_of_m_[m_edge]; }
+
+  template <class Visit>
+  void for_each_vertex_on_face(Index face, Visit visit) const
+  {
+    for (Index v = first_on_face_[face]; v != none; v = next_assigned_[v]) visit(v);
+  }
+  template <class Visit>
+  void for_each_vertex_on_edge(Index edge, Visit visit) const
+  {
+    for (Index v = first_on_edge_[edge]; v != none; v = next_assigned_[v]) visit(v);
+  }
+  template <class Visit>
+  void for_each_node_on_m(Index m_edge, Visit visit) const
+  {
+    for (Index n = first_node_of_m_[m_edge]; n != none; n = nodes_[n].next_on_m) visit(n);
+  }
+
+  /// Forgets which vertices are assigned to a face or edge; each must be assigned anew.
+  void clear_face(Index face) { first_on_face_[face] = none; }
+  void clear_edge(Index edge) { first_on_edge_[edge] = none; }
+  void assign(Index v, Element element)
+  {
+    image_[v] = element;
+    if (element.kind() == Element::Kind::vertex) return;
+    Index& first = element.kind() == Element::Kind::face ? first_on_face_[element.id()]
+                                                         : first_on_edge_[element.id()];
+    next_assigned_[v] = first;
+    first = v;
+  }
+
+  Index add_node(Index t_edge, Index m_edge, double lambda)
+  {
+    Index n = free_;
+    if (n == none) {
+      n = static_cast<Index>(nodes_.size());
+      nodes_.emplace_back();
+    } else {
+      free_ = nodes_[n].next_on_t;
+    }
+    const Index first = first_node_of_m_[m_edge];
+    nodes_[n] = {t_edge, m_edge, none, first, none, lambda};
+    if (first != none) nodes_[first].previous_on_m = n;
+    first_node_of_m_[m_edge] = n;
+    return n;
+  }
+  void remove_node(Index n)
+  {
+    const Node& node = nodes_[n];
+    if (node.next_on_m != none) nodes_[node.next_on_m].previous_on_m = node.previous_on_m;
+    if (node.previous_on_m != none) nodes_[node.previous_on_m].next_on_m = node.next_on_m;
+    else first_node_of_m_[node.m_edge] = node.next_on_m;
+    nodes_[n].next_on_t = free_;
+    free_ = n;
+  }
+  void set_first_node(Index t_edge, Index n) { first_node_of_t_[t_edge] = n; }
+  void set_next_node(Index n, Index next) { nodes_[n].next_on_t = next; }
+
+private:
+  std::vector<Element> image_;
+  std::vector<Index> next_assigned_;
+  std::vector<Index> first_on_face_, first_on_edge_;
+  std::vector<Index> first_node_of_t_, first_node_of_m_;
+  std::vector<Node> nodes_;
+  Index free_ = none;
+};
+
+} // namespace surety::internal
+
+#endif // SURETY_INTERNAL_DEVIATION_MAP_H

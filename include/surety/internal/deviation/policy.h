@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The one question that operators ask about distance.
+#ifndef SURETY_INTERNAL_DEVIATION_POLICY_H
+#define SURETY_INTERNAL_DEVIATION_POLICY_H
+
+#include <surety/internal/operators/disc.h>
+#include <surety/operations.h>
+
+namespace surety::internal {
+
+/// A bound on the deviation of M from T. An operator calls check() with the disc that it wants to
+/// retriangulate, and after Verdict::accept either commit(), *before* it changes M, or nothing.
+/// Between the two the policy keeps what it worked out; check() alone changes nothing.
+class Deviation_policy
+{
+public:
+  virtual ~Deviation_policy() = default;
+  virtual Verdict check(const Disc& disc) = 0;
+  virtual void commit(const Disc& disc) = 0;
+
+  /// b(K), an upper bound of the two-sided distance at face K; see section 2.1 of the paper.
+  virtual std::vector<double> face_bounds() const = 0;
+};
+
+} // namespace surety::internal
+
+#endif // SURETY_INTERNAL_DEVIATION_POLICY_H

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// No operation may make a face that meets another one outside the vertices and edges they share.
+// Decided by exact predicates among the faces that a box tree finds nearby.
+#ifndef SURETY_INTERNAL_GEOMETRIC_MESH_INTERSECTION_GUARD_H
+#define SURETY_INTERNAL_GEOMETRIC_MESH_INTERSECTION_GUARD_H
+
+#include <surety/internal/deviation/reference.h>
+#include <surety/internal/geometric_mesh/box_tree.h>
+#include <surety/internal/operators/disc.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/intersections.h>
+
+#include <array>
+#include <vector>
+
+namespace surety::internal {
+
+class Intersection_guard
+{
+public:
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Point = Kernel::Point_3;
+  using Corners = std::array<Index, 3>;
+
+  Intersection_guard(const Reference& reference, const Working_mesh& mesh)
+    : reference_(reference), mesh_(mesh), origin_(reference.point(0)), tree_(boxes_of_faces())
+  {}
+
+  /// Whether no new face of the disc meets any other face.
+  bool admits(const Disc& disc)
+  {
+    Float_box all;
+    fan_.clear();
+    for (Index i = disc.first; i <= disc.last; ++i) {
+      const Corners corners{disc.apex(), disc.ring[i], disc.ring[i + 1]};
+      if (CGAL::collinear(point(corners[0]), point(corners[1]), point(corners[2]))) return false;
+      fan_.push_back({corners, box_of(corners)});
+      all.add(fan_.back().box);
+    }
+    for (std::size_t i = 0; i < fan_.size(); ++i)
+      for (std::size_t j = i + 1; j < fan_.size(); ++j)
+        if (meet(fan_[i].corners, fan_[j].corners)) return false;
+
+    bool admissible = true;
+    tree_.for_each_meeting(all, [&](Index f) {
+      if (!admissible || disc.position_of_old_face(f) != none) return;
+      const Corners corners = mesh_.vertices_of(f);
+      const Float_box box = box_of(corners);
+      for (const Fan_face& face : fan_)
+        if (face.box.meets(box) && meet(face.corners, corners)) {
+          admissible = false;
+          return;
+        }
+    });
+    return admissible;
+  }
+
+  /// Follows M after it has taken the disc.
+  void commit(const Disc& disc)
+  {
+    for (const Index f : disc.old_face)
+      if (!mesh_.is_ghost_face(f))
+        tree_.set(f, mesh_.is_live_face(f) ? box_of(mesh_.vertices_of(f)) : Float_box());
+  }
+
+private:
+  struct Fan_face {
+    Corners corners;
+    Float_box box;
+  };
+
+  Point point(Index v) const
+  {
+    const Vector& p = reference_.point(v);
+    return {p.x(), p.y(), p.z()};
+  }
+  Float_box box_of(const Corners& corners) const
+  {
+    Float_box box;
+    for (const Index v : corners)
+      box.add((reference_.point(v) - origin_).cast<float>().array());
+    return box;
+  }
+  std::vector<Float_box> boxes_of_faces() const
+  {
+    std::vector<Float_box> boxes(mesh_.number_of_real_faces());
+    for (Index f = 0; f < boxes.size(); ++f) boxes[f] = box_of(mesh_.vertices_of(f));
+    return boxes;
+  }
+
+  /// Whether two faces meet outside the vertices that they share.
+  bool meet(Corners a, Corners b) const
+  {
+    const std::size_t shared = shared_first(a, b);
+    if (shared == 0) return meet_apart(a, b);
+    if (shared == 1) return meet_at_vertex(a, b);
+    if (shared == 2) return meet_at_edge(a, b);
+    return true;
+  }
+
+  /// Moves the vertices that both have to the front of both, in the same order.
+  static std::size_t shared_first(Corners& a, Corners& b)
+  {
+    std::size_t shared = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = shared; j < 3; ++j)
+        if (a[i] == b[j]) {
+          std::swap(a[shared], a[i]);
+          std::swap(b[shared], b[j]);
+          ++shared;
+          break;
+        }
+    return shared;
+  }
+
+  /// Whether all of `others` lie strictly on one side of the plane of a.
+  template <std::size_t n>
+  bool on_one_side(const Corners& a, const std::array<Index, n>& others) const
+  {
+    const Point p = point(a[0]), q = point(a[1]), r = point(a[2]);
+    const CGAL::Orientation side = CGAL::orientation(p, q, r, point(others[0]));
+    if (side == CGAL::COPLANAR) return false;
+    for (std::size_t i = 1; i < n; ++i)
+      if (CGAL::orientation(p, q, r, point(others[i])) != side) return false;
+    return true;
+  }
+
+  bool meet_apart(const Corners& a, const Corners& b) const
+  {
+    if (on_one_side(a, b) || on_one_side(b, a)) return false;
+    return CGAL::do_intersect(triangle(a), triangle(b));
+  }
+  bool meet_at_vertex(const Corners& a, const Corners& b) const
+  {
+    if (on_one_side(a, std::array<Index, 2>{b[1], b[2]})
+        || on_one_side(b, std::array<Index, 2>{a[1], a[2]}))
+      return false;
+    return CGAL::do_intersect(triangle(a), Kernel::Segment_3(point(b[1]), point(b[2])))
+        || CGAL::do_intersect(triangle(b), Kernel::Segment_3(point(a[1]), point(a[2])));
+  }
+  bool meet_at_edge(const Corners& a, const Corners& b) const
+  {
+    const Point p = point(a[0]), q = point(a[1]), r = point(a[2]), s = point(b[2]);
+    return CGAL::orientation(p, q, r, s) == CGAL::COPLANAR
+        && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
+  }
+  Kernel::Triangle_3 triangle(const Corners& a) const
+  {
+    return {point(a[0]), point(a[1]), point(a[2])};
+  }
+
+  const Reference& reference_;
+  const Working_mesh& mesh_;
+  Vector origin_;
+  Box_tree tree_;
+  std::vector<Fan_face> fan_;
+};
+
+} // namespace surety::internal
+
+#endif // SURETY_INTERNAL_GEOMETRIC_MESH_INTERSECTION_GUARD_H

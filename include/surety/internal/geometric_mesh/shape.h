@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Shape control (section 2.2 of the paper): Q(new) <= max(omega max Q(old), floor).
+#ifndef SURETY_INTERNAL_GEOMETRIC_MESH_SHAPE_H
+#define SURETY_INTERNAL_GEOMETRIC_MESH_SHAPE_H
+
+#include <surety/internal/linear.h>
+#include <surety/internal/operators/disc.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace surety::internal {
+
+/// Q(K) = (sqrt(3)/6) h_max / inradius, and the inradius is twice the area over the perimeter.
+inline double shape_quality(const Vector& a, const Vector& b, const Vector& c)
+{
+  const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm();
+  const double double_area = (b - a).cross(c - a).norm();
+  if (!(double_area > 0)) return std::numeric_limits<double>::infinity();
+  constexpr double sqrt3_over_6 = 0.28867513459481287;
+  return sqrt3_over_6 * std::max({ab, bc, ca}) * (ab + bc + ca) / double_area;
+}
+
+class Shape_control
+{
+public:
+  Shape_control(double ratio, double floor) : ratio_(ratio), floor_(floor) {}
+
+  /// Points is called with the index of a vertex of M.
+  template <class Points>
+  bool admits(const Disc& disc, const Working_mesh& mesh, const Points& points) const
+  {
+    double worst = 0;
+    const Vector& apex = points(disc.apex());
+    for (Index i = disc.first; i <= disc.last; ++i)
+      worst = std::max(worst, shape_quality(apex, points(disc.ring[i]), points(disc.ring[i + 1])));
+    if (worst <= floor_) return true;
+    if (!std::isfinite(worst)) return false;
+    for (const Index f : disc.old_face) {
+      if (mesh.is_ghost_face(f)) continue;
+      const auto v = mesh.vertices_of(f);
+      if (worst <= ratio_ * shape_quality(points(v[0]), points(v[1]), points(v[2]))) return true;
+    }
+    return false;
+  }
+
+private:
+  double ratio_, floor_;
+};
+
+} // namespace surety::internal
+
+#endif // SURETY_INTERNAL_GEOMETRIC_MESH_SHAPE_H

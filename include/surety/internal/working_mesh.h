@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// M, the current mesh: a flat triangle half-edge structure that keeps the indices of the user's
+// mesh, so that the result can be written back without a search.
+//
+// Every border loop is closed by one ghost vertex g and one ghost face (b, a, g) a border edge
+// a -> b. M is then a closed surface, and neither the ring of a vertex nor the link condition has a
+// border case. Ghosts have no geometry and are never moved, measured or written.
+#ifndef SURETY_INTERNAL_WORKING_MESH_H
+#define SURETY_INTERNAL_WORKING_MESH_H
+
+#include <surety/internal/linear.h>
+
+#include <array>
+#include <vector>
+
+namespace surety::internal {
+
+class Working_mesh
+{
+public:
+  /// Half-edges 2e and 2e + 1 are edge e. A border half-edge comes with face `none`.
+  struct Connectivity {
+    std::vector<Index> next, target, face;
+    Index vertices = 0, faces = 0;
+  };
+
+  Working_mesh(Connectivity connectivity, std::vector<bool> feature_edge,
+               std::vector<bool> fixed_vertex)
+    : next_(std::move(connectivity.next)), target_(std::move(connectivity.target)),
+      face_(std::move(connectivity.face)), feature_(std::move(feature_edge)),
+      fixed_(std::move(fixed_vertex)), real_vertices_(connectivity.vertices),
+      real_faces_(connectivity.faces), real_edges_(static_cast<Index>(next_.size() / 2)),
+      live_faces_(connectivity.faces)
+  {
+    close_borders();
+    index_halfedges();
+  }
+
+  Index next(Index h) const { return next_[h]; }
+  Index prev(Index h) const { return next_[next_[h]]; }
+  Index target(Index h) const { return target_[h]; }
+  Index source(Index h) const { return target_[h ^ 1]; }
+  Index face(Index h) const { return face_[h]; }
+  static Index opposite(Index h) { return h ^ 1; }
+  static Index edge(Index h) { return h >> 1; }
+  static Index halfedge(Index e) { return e << 1; }
+
+  /// A half-edge that ends at v, or that lies in f; `none` once the element is gone.
+  Index halfedge_to(Index v) const { return vertex_halfedge_[v]; }
+  Index halfedge_in(Index f) const { return face_halfedge_[f]; }
+
+  Index number_of_real_vertices() const { return real_vertices_; }
+  Index number_of_real_edges() const { return real_edges_; }
+  Index number_of_real_faces() const { return real_faces_; }
+  Index number_of_edges() const { return static_cast<Index>(next_.size() / 2); }
+  Index number_of_live_faces() const { return live_faces_; }
+
+  bool is_ghost_vertex(Index v) const { return v >= real_vertices_; }
+  bool is_ghost_face(Index f) const { return f >= real_faces_; }
+  bool is_live_vertex(Index v) const { return vertex_halfedge_[v] != none; }
+  bool is_live_face(Index f) const { return face_halfedge_[f] != none; }
+  bool is_live_edge(Index e) const { return face_[2 * e] != none; }
+  bool is_feature(Index e) const { return feature_[e]; }
+  bool is_fixed(Index v) const { return fixed_[v]; }
+  bool is_border(Index e) const
+  {
+    return is_ghost_face(face_[2 * e]) || is_ghost_face(face_[2 * e + 1]);
+  }
+
+  std::array<Index, 3> vertices_of(Index f) const
+  {
+    const Index h = face_halfedge_[f];
+    return {target_[h], target_[next_[h]], target_[next_[next_[h]]]};
+  }
+  bool has_vertex(Index f, Index v) const
+  {
+    const auto corners = vertices_of(f);
+    return corners[0] == v || corners[1] == v || corners[2] == v;
+  }
+
+  /// Calls visit(h) for each half-edge that leaves v, counter-clockwise.
+  template <class Visit>
+  void for_each_outgoing(Index v, Visit visit) const
+  {
+    const Index first = opposite(vertex_halfedge_[v]);
+    Index h = first;
+    do {
+      visit(h);
+      h = opposite(prev(h));
+    } while (h != first);
+  }
+
+  /// Contracts the source P of h into its target Q. Faces and spokes of P that survive keep their
+  /// indices; the two faces on h die, and of the edges that merge there those at P.
+  void collapse(Index h);
+
+  /// Turns h = a -> b, between c on its left and d on its right, into d -> c.
+  void flip(Index h);
+
+private:
+  void close_borders();
+  void index_halfedges();
+  void remove_face(Index f)
+  {
+    face_halfedge_[f] = none;
+    if (!is_ghost_face(f)) --live_faces_;
+  }
+  void remove_edge(Index e) { face_[2 * e] = face_[2 * e + 1] = none; }
+
+  /// Puts half-edge h in the place that `old` has in its face.
+  void replace_in_face(Index old, Index h)
+  {
+    next_[prev(old)] = h;
+    next_[h] = next_[old];
+    face_[h] = face_[old];
+    face_halfedge_[face_[old]] = h;
+  }
+
+  std::vector<Index> next_, target_, face_;
+  std::vector<Index> vertex_halfedge_, face_halfedge_;
+  std::vector<bool> feature_, fixed_;
+  Index real_vertices_, real_faces_, real_edges_, live_faces_;
+};
+
+inline void Working_mesh::collapse(Index h)
+{
+  const Index p = source(h), q = target(h);
+  const Index left = next(h);                // q -> r_1
+  const Index left_spoke = opposite(prev(h)); // p -> r_1
+  const Index right = prev(opposite(h));     // r_{k-1} -> q
+  const Index right_spoke = next(opposite(h)); // p -> r_{k-1}
+  remove_face(face_[h]);
+  remove_face(face_[opposite(h)]);
+
+  Index spoke = opposite(prev(left_spoke));
+  for (; spoke != right_spoke && spoke != h; spoke = opposite(prev(spoke)))
+    target_[opposite(spoke)] = q;
+
+  replace_in_face(left_spoke, left);
+  replace_in_face(opposite(right_spoke), right);
+  remove_edge(edge(h));
+  remove_edge(edge(left_spoke));
+  remove_edge(edge(right_spoke));
+
+  vertex_halfedge_[p] = none;
+  vertex_halfedge_[q] = right;
+  vertex_halfedge_[target_[left]] = left;
+  vertex_halfedge_[source(right)] = opposite(right);
+}
+
+inline void Working_mesh::flip(Index h)
+{
+  const Index o = opposite(h);
+  const Index bc = next(h), ca = prev(h), ad = next(o), db = prev(o);
+  const Index a = target_[o], b = target_[h], c = target_[bc], d = target_[ad];
+  const Index left = face_[h], right = face_[o];
+  target_[h] = c;
+  target_[o] = d;
+  next_[ca] = ad, next_[ad] = h, next_[h] = ca;
+  next_[db] = bc, next_[bc] = o, next_[o] = db;
+  face_[ad] = left, face_[bc] = right;
+  face_halfedge_[left] = h, face_halfedge_[right] = o;
+  vertex_halfedge_[a] = ca, vertex_halfedge_[b] = db;
+  vertex_halfedge_[c] = h, vertex_halfedge_[d] = o;
+}
+
+inline void Working_mesh::close_borders()
+{
+  const auto real_halfedges = static_cast<Index>(next_.size());
+  Index vertex = real_vertices_, face = real_faces_;
+  std::vector<Index> loop;
+  for (Index start = 0; start < real_halfedges; ++start) {
+    if (face_[start] != none) continue;
+    loop.clear();
+    for (Index h = start; loop.empty() || h != start; h = next_[h]) loop.push_back(h);
+
+    // Ghost edge i leaves the target of loop[i] and is followed round the loop.
+    const auto first = static_cast<Index>(next_.size());
+    const auto size = static_cast<Index>(loop.size());
+    next_.resize(first + 2 * size);
+    target_.resize(first + 2 * size);
+    face_.resize(first + 2 * size);
+    for (Index i = 0; i < size; ++i) {
+      const Index in = first + 2 * i, out = first + 2 * ((i + size - 1) % size) + 1;
+      target_[in] = vertex;
+      target_[in + 1] = target_[loop[i]];
+      next_[loop[i]] = in, next_[in] = out, next_[out] = loop[i];
+      face_[loop[i]] = face_[in] = face_[out] = face++;
+    }
+    ++vertex;
+  }
+  feature_.resize(next_.size() / 2, false);
+  fixed_.resize(vertex, true);
+  vertex_halfedge_.assign(vertex, none);
+  face_halfedge_.assign(face, none);
+}
+
+inline void Working_mesh::index_halfedges()
+{
+  for (Index h = 0; h < next_.size(); ++h) {
+    vertex_halfedge_[target_[h]] = h;
+    face_halfedge_[face_[h]] = h;
+  }
+}
+
+} // namespace surety::internal
+
+#endif // SURETY_INTERNAL_WORKING_MESH_H
