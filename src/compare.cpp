@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// surety compare: how far apart are two meshes? A certified interval each way, with the places
+// where the distance occurs; or, given a tolerance, a proof or a counter-example.
+#include "commands.h"
+#include "instantiations.h"
+#include "length.h"
+#include "mesh_reading.h"
+#include "output_files.h"
+#include "report.h"
+
+#include <iostream>
+#include <optional>
+
+namespace surety::tool {
+namespace {
+
+struct Compare {
+  std::string first, second, tolerance, accuracy, report;
+  Reading reading;
+  bool is_quiet = false;
+
+  Exit_status run() const;
+
+private:
+  void measure(const Mesh& a, const Mesh& b, double accuracy_in_units, Json& json) const;
+  Exit_status decide(const Mesh& a, const Mesh& b, double tolerance_in_units, Json& json) const;
+  void print(const char* name, const Distance_interval& interval) const;
+};
+
+Json to_json(const Witness& witness)
+{
+  return {
+      {"point", witness.point},
+      {"face", witness.face},
+      {"distance_lower_bound", witness.distance_lower_bound}};
+}
+
+Json to_json(const Distance_interval& interval)
+{
+  return {
+      {"lower", interval.lower}, {"upper", interval.upper}, {"witness", to_json(interval.witness)}};
+}
+
+std::string describe(const Witness& witness)
+{
+  return "(" + to_text(witness.point[0]) + ", " + to_text(witness.point[1]) + ", "
+      + to_text(witness.point[2]) + ") on face " + std::to_string(witness.face);
+}
+
+Exit_status Compare::run() const
+{
+  std::optional<Length> bound, eps;
+  if (!tolerance.empty()) bound = Length::parse(tolerance, "--tolerance");
+  if (!accuracy.empty()) eps = Length::parse(accuracy, "--accuracy");
+  Output_files files({first, second});
+  if (!report.empty()) files.announce(report);
+  Stopwatch watch;
+  const Mesh a = read_mesh(first, reading), b = read_mesh(second, reading);
+  watch.lap("read");
+
+  Json json = new_report("compare");
+  json["files"] = {{"A", first}, {"B", second}};
+  Exit_status status = done;
+  const double length = diagonal(a);
+  if (bound) status = decide(a, b, bound->in_units(length), json);
+  watch.lap("decide");
+  if (!bound || eps) measure(a, b, eps ? eps->in_units(length) : 1e-4 * length, json);
+  watch.lap("measure");
+  json["seconds"] = watch.seconds();
+  if (!report.empty()) {
+    files.write(report, [&](std::ostream& stream) { stream << to_text(json); });
+    files.commit();
+  }
+  return status;
+}
+
+void Compare::measure(const Mesh& a, const Mesh& b, double accuracy_in_units, Json& json) const
+{
+  const Hausdorff_distance distance = hausdorff_distance(a, b, accuracy_in_units);
+  json["distance"]
+      = {{"accuracy", accuracy_in_units},
+         {"lower", distance.lower()},
+         {"upper", distance.upper()},
+         {"A_to_B", to_json(distance.forward)},
+         {"B_to_A", to_json(distance.backward)}};
+  if (is_quiet) return;
+  print("from A to B", distance.forward);
+  print("from B to A", distance.backward);
+  std::cout << "Hausdorff distance: between " << distance.lower() << " and " << distance.upper()
+            << '\n';
+}
+
+void Compare::print(const char* name, const Distance_interval& interval) const
+{
+  std::cout << name << ": between " << interval.lower << " and " << interval.upper << ", at "
+            << describe(interval.witness) << '\n';
+}
+
+Exit_status Compare::decide(
+    const Mesh& a, const Mesh& b, double tolerance_in_units, Json& json) const
+{
+  const Distance_certificate proof = certify_distance(a, b, tolerance_in_units);
+  json["certificate"]
+      = {{"tolerance", tolerance_in_units},
+         {"bound", proof.upper_bound()},
+         {"holds", proof.holds()},
+         {"refuted", proof.refuted()}};
+  if (proof.witness()) json["certificate"]["witness"] = to_json(*proof.witness());
+  if (is_quiet) return proof.holds() ? done : not_certified;
+  if (proof.holds()) {
+    std::cout << "proven: within " << tolerance_in_units << " of each other\n";
+  } else if (proof.refuted()) {
+    std::cout << "refuted: farther than " << tolerance_in_units << " from each other, at "
+              << describe(*proof.witness()) << '\n';
+  } else {
+    std::cout << "undecided: neither proven nor refuted within " << tolerance_in_units << '\n';
+  }
+  return proof.holds() ? done : not_certified;
+}
+
+} // namespace
+
+void add_compare(CLI::App& program, Exit_status& status)
+{
+  const auto command = program.add_subcommand(
+      "compare", "Certified interval of the Hausdorff distance of two meshes");
+  const auto compare = std::make_shared<Compare>();
+  command->add_option("A", compare->first, "a mesh: off, obj, ply or stl")->required();
+  command->add_option("B", compare->second, "another mesh")->required();
+  command->add_option(
+      "-t,--tolerance", compare->tolerance,
+      "prove or refute that they lie within this distance: a length (0.5) or a per cent of A's "
+      "bounding-box diagonal (0.1%)");
+  command->add_option(
+      "--accuracy", compare->accuracy,
+      "width of the interval, a length or a per cent; without it 0.01%, or none with a tolerance");
+  command->add_flag("--triangulate", compare->reading.triangulate, "split faces with more corners");
+  command->add_option("--report", compare->report, "write all figures to this JSON file");
+  command->add_flag("--quiet", compare->is_quiet, "print nothing but errors");
+  command->footer("With a tolerance the exit status is 0 if it is proven, and 4 if not.\n"
+                  "Example: surety compare part.off simplified.off -t 0.1%");
+  command->callback([compare, &status] { status = compare->run(); });
+}
+
+} // namespace surety::tool

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Instantiates every public template of the library, so that the compiler sees all of it at least
+// once, and the command line just once.
+#include "instantiations.h"
+
+namespace surety {
+
+template Certificate make_geometric_mesh(tool::Mesh&, double, const tool::Simplify_parameters&);
+template Certificate_check check_certificate(
+    const tool::Mesh&, const tool::Mesh&, const Certificate&, const tool::No_parameters&,
+    const tool::No_parameters&);
+template Distance_certificate certify_distance(
+    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&);
+template Hausdorff_distance hausdorff_distance(
+    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&);
+template Features find_features(const tool::Mesh&, const tool::Feature_parameters&);
+template Mesh_statistics mesh_statistics(const tool::Mesh&, const tool::No_parameters&);
+
+} // namespace surety

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The library's functions as the command line calls them: one mesh type, and one chain of named
+// parameters a function. All are instantiated once, in instantiations.cpp, because each takes
+// many seconds to compile.
+#ifndef SURETY_TOOL_INSTANTIATIONS_H
+#define SURETY_TOOL_INSTANTIATIONS_H
+
+#include "mesh.h"
+#include "progress.h"
+
+#include <surety/certificate.h>
+#include <surety/distance.h>
+#include <surety/features.h>
+#include <surety/geometric_mesh.h>
+#include <surety/parameters.h>
+#include <surety/statistics.h>
+
+#include <utility>
+
+namespace surety::tool {
+
+/// The controls of `make_geometric_mesh`, with the library's defaults.
+struct Controls {
+  Deviation_bound deviation_bound = internal::defaults::deviation_bound;
+  double feature_angle = internal::defaults::feature_angle;
+  double corner_angle = internal::defaults::corner_angle;
+  double roughness_angle = internal::defaults::roughness_angle;
+  double shape_ratio = internal::defaults::shape_ratio;
+  double shape_floor = internal::defaults::shape_floor;
+  unsigned flip_rounds = internal::defaults::flip_rounds;
+  bool allow_self_intersections = internal::defaults::allow_self_intersections;
+};
+
+inline auto simplify_parameters(const Controls& controls, const Visitor& visitor)
+{
+  return parameters::deviation_bound(controls.deviation_bound)
+      .feature_angle(controls.feature_angle)
+      .corner_angle(controls.corner_angle)
+      .roughness_angle(controls.roughness_angle)
+      .shape_ratio(controls.shape_ratio)
+      .shape_floor(controls.shape_floor)
+      .flip_rounds(controls.flip_rounds)
+      .allow_self_intersections(controls.allow_self_intersections)
+      .visitor(visitor);
+}
+
+inline auto feature_parameters(double feature_angle, double corner_angle)
+{
+  return parameters::feature_angle(feature_angle).corner_angle(corner_angle);
+}
+
+using No_parameters = CGAL::parameters::Default_named_parameters;
+using Simplify_parameters
+    = decltype(simplify_parameters(std::declval<Controls>(), std::declval<Visitor>()));
+using Feature_parameters = decltype(feature_parameters(0, 0));
+
+} // namespace surety::tool
+
+namespace surety {
+
+extern template Certificate make_geometric_mesh(
+    tool::Mesh&, double, const tool::Simplify_parameters&);
+extern template Certificate_check check_certificate(
+    const tool::Mesh&, const tool::Mesh&, const Certificate&, const tool::No_parameters&,
+    const tool::No_parameters&);
+extern template Distance_certificate certify_distance(
+    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&);
+extern template Hausdorff_distance hausdorff_distance(
+    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&);
+extern template Features find_features(const tool::Mesh&, const tool::Feature_parameters&);
+extern template Mesh_statistics mesh_statistics(const tool::Mesh&, const tool::No_parameters&);
+
+} // namespace surety
+
+#endif // SURETY_TOOL_INSTANTIATIONS_H

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Reading of meshes from files.
+#ifndef SURETY_TOOL_MESH_READING_H
+#define SURETY_TOOL_MESH_READING_H
+
+#include "mesh.h"
+
+#include <string>
+
+namespace surety::tool {
+
+struct Reading {
+  bool triangulate = false; ///< split faces of more than three corners instead of refusing them
+  bool stitch = true;       ///< merge equal points if the file knows no connectivity
+};
+
+/// The mesh of an OFF, OBJ, PLY or STL file, its vertices and faces in the order of the file.
+/// \throws Bad_file if the file cannot be read or holds no valid surface; the message names the
+/// offending element and the remedy.
+Mesh read_mesh(const std::string& file, const Reading& options);
+
+} // namespace surety::tool
+
+#endif // SURETY_TOOL_MESH_READING_H

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// CGAL's writers for OFF, OBJ, PLY and STL; VTP, which CGAL writes with the VTK library only, is
+// simple enough to write here.
+#include "mesh_writing.h"
+
+#include <surety/statistics.h>
+
+#include <CGAL/IO/Color.h>
+#include <CGAL/Surface_mesh/IO.h>
+#include <CGAL/boost/graph/IO/OBJ.h>
+#include <CGAL/boost/graph/IO/STL.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ostream>
+#include <vector>
+
+namespace surety::tool {
+namespace {
+
+using Face = Mesh::Face_index;
+
+std::array<Mesh::Vertex_index, 3> corners(const Mesh& mesh, Face face)
+{
+  const auto h = mesh.halfedge(face);
+  return {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
+}
+
+std::vector<double> bounds(const Mesh& mesh, const Deviation& deviation)
+{
+  std::vector<double> values;
+  for (const Face face : mesh.faces()) values.push_back(get(deviation.bound, face));
+  return values;
+}
+
+std::vector<double> qualities(const Mesh& mesh)
+{
+  std::vector<double> values;
+  for (const Face face : mesh.faces()) {
+    const auto [a, b, c] = corners(mesh, face);
+    values.push_back(quality(mesh.point(a), mesh.point(b), mesh.point(c)));
+  }
+  return values;
+}
+
+/// The colour of a value in [0, 1]: dark violet, blue, green, yellow, of even brightness steps
+/// and readable by everyone (samples of the map "viridis").
+CGAL::IO::Color heat(double value)
+{
+  constexpr std::array<std::array<double, 3>, 6> samples = {
+      {{68, 1, 84}, {65, 68, 135}, {42, 120, 142}, {34, 168, 132}, {122, 209, 81}, {253, 231, 37}}};
+  const double position = std::clamp(value, 0., 1.) * (samples.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(position), samples.size() - 2);
+  const double t = position - double(i);
+  const auto channel = [&](std::size_t c) {
+    return static_cast<unsigned char>(std::lround((1 - t) * samples[i][c] + t * samples[i + 1][c]));
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+
+/// PLY writes all properties of a mesh: this copy has just those that the file shall have.
+Mesh heat_map(const Mesh& mesh, const Deviation& deviation)
+{
+  Mesh result;
+  for (const auto v : mesh.vertices()) result.add_vertex(mesh.point(v));
+  for (const Face face : mesh.faces()) {
+    const auto [a, b, c] = corners(mesh, face);
+    result.add_face(a, b, c);
+  }
+  const auto bound = result.add_property_map<Face, double>("f:deviation", 0).first;
+  const auto shape = result.add_property_map<Face, double>("f:quality", 0).first;
+  const auto color = result.add_property_map<Face, CGAL::IO::Color>("f:color").first;
+  const auto all_bounds = bounds(mesh, deviation), all_shapes = qualities(mesh);
+  for (const Face face : result.faces()) {
+    put(bound, face, all_bounds[face]);
+    put(shape, face, all_shapes[face]);
+    put(color, face, heat(all_bounds[face] / deviation.tolerance));
+  }
+  return result;
+}
+
+bool has_float_coordinates(const Mesh& mesh)
+{
+  const auto is_float = [](double x) { return double(static_cast<float>(x)) == x; };
+  const auto vertices = mesh.vertices();
+  return std::all_of(vertices.begin(), vertices.end(), [&](Mesh::Vertex_index v) {
+    const Point& p = mesh.point(v);
+    return is_float(p.x()) && is_float(p.y()) && is_float(p.z());
+  });
+}
+
+void write_stl(std::ostream& stream, const Mesh& mesh)
+{
+  // Binary STL knows single precision only.
+  if (has_float_coordinates(mesh)) CGAL::IO::set_binary_mode(stream);
+  CGAL::IO::write_STL(stream, mesh);
+}
+
+template <class Value, class Values>
+void write_array(
+    std::ostream& stream, const char* type, const char* name, int components, const Values& values)
+{
+  stream << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
+         << components << "\" format=\"ascii\">\n";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool ends_line = (i + 1) % std::size_t(components) == 0;
+    stream << Value(values[i]) << (ends_line ? '\n' : ' ');
+  }
+  stream << "</DataArray>\n";
+}
+
+void write_vtp(std::ostream& stream, const Mesh& mesh, const Deviation& deviation)
+{
+  std::vector<double> coordinates;
+  for (const auto v : mesh.vertices()) {
+    const Point& p = mesh.point(v);
+    coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
+  }
+  std::vector<std::size_t> connectivity, offsets;
+  for (const Face face : mesh.faces()) {
+    for (const auto v : corners(mesh, face)) connectivity.push_back(v);
+    offsets.push_back(connectivity.size());
+  }
+  stream << "<?xml version=\"1.0\"?>\n"
+            "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+            "<PolyData>\n<Piece NumberOfPoints=\""
+         << mesh.number_of_vertices() << "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
+         << "NumberOfStrips=\"0\" NumberOfPolys=\"" << mesh.number_of_faces() << "\">\n<Points>\n";
+  write_array<double>(stream, "Float64", "Points", 3, coordinates);
+  stream << "</Points>\n<Polys>\n";
+  write_array<std::size_t>(stream, "Int64", "connectivity", 3, connectivity);
+  write_array<std::size_t>(stream, "Int64", "offsets", 1, offsets);
+  stream << "</Polys>\n<CellData Scalars=\"deviation\">\n";
+  write_array<double>(stream, "Float64", "deviation", 1, bounds(mesh, deviation));
+  write_array<double>(stream, "Float64", "quality", 1, qualities(mesh));
+  stream << "</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+}
+
+} // namespace
+
+bool is_writable(const std::string& extension)
+{
+  constexpr std::array<const char*, 5> known = {"off", "obj", "ply", "stl", "vtp"};
+  return std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+void write_mesh(
+    std::ostream& stream, const std::string& extension, const Mesh& mesh,
+    const Deviation& deviation)
+{
+  stream.precision(17);
+  if (extension == "off") CGAL::IO::write_OFF(stream, mesh);
+  if (extension == "obj") CGAL::IO::write_OBJ(stream, mesh);
+  if (extension == "stl") write_stl(stream, mesh);
+  if (extension == "vtp") write_vtp(stream, mesh, deviation);
+  if (extension == "ply") {
+    CGAL::IO::set_binary_mode(stream);
+    CGAL::IO::write_PLY(stream, heat_map(mesh, deviation));
+  }
+}
+
+} // namespace surety::tool

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// surety simplify: read, simplify, verify independently, write. Nothing appears on disk before
+// everything has succeeded.
+#include "commands.h"
+#include "instantiations.h"
+#include "interruption.h"
+#include "length.h"
+#include "mesh_reading.h"
+#include "mesh_writing.h"
+#include "output_files.h"
+#include "report.h"
+#include "soup_reading.h"
+
+#include <iostream>
+#include <limits>
+#include <map>
+#include <optional>
+
+namespace surety::tool {
+namespace {
+
+struct Arguments {
+  std::string input, output, tolerance, certificate, report, placement = "on-surface";
+  Reading reading;
+  Controls controls;
+  bool is_quiet = false, skips_verification = false;
+};
+
+/// What the two independent checks say.
+struct Verification {
+  std::optional<Certificate_check> certificate;
+  std::optional<Distance_certificate> distance;
+};
+
+class Simplify
+{
+public:
+  explicit Simplify(const Arguments& arguments) : arguments_(arguments), files_({arguments.input})
+  {}
+
+  void run()
+  {
+    const Length length = Length::parse(arguments_.tolerance, "--tolerance");
+    announce_outputs();
+    watch_for_interruption();
+    read();
+    tolerance_ = length.in_units(diagonal(input_));
+    simplify();
+    verify();
+    write();
+    if (!arguments_.is_quiet) print();
+  }
+
+private:
+  void announce_outputs();
+  void read();
+  void simplify();
+  void verify();
+  void require_no_new_intersection() const;
+  void write();
+  Json report() const;
+  void print() const;
+
+  /// Ends a step.
+  void lap(const char* step)
+  {
+    watch_.lap(step);
+    stop_if_interrupted();
+  }
+
+  const Arguments& arguments_;
+  Output_files files_;
+  Stopwatch watch_;
+  Mesh input_, output_;
+  Mesh_statistics input_statistics_, output_statistics_;
+  double tolerance_ = 0;
+  std::optional<Certificate> certificate_;
+  Verification verification_;
+};
+
+void Simplify::announce_outputs()
+{
+  const std::string extension = extension_of(arguments_.output);
+  if (!is_writable(extension)) {
+    throw Failure(
+        usage,
+        arguments_.output + ": the format '" + extension
+            + "' cannot be written; give a name that ends in .off, .obj, .ply, .stl or .vtp");
+  }
+  files_.announce(arguments_.output);
+  if (!arguments_.report.empty()) files_.announce(arguments_.report);
+  if (arguments_.certificate.empty()) return;
+  if (arguments_.controls.deviation_bound == Deviation_bound::accumulated) {
+    throw Failure(
+        usage,
+        "--certificate: the accumulated bound keeps no record that could be written; leave one of "
+        "the two options out");
+  }
+  if (extension == "stl" || extension == "vtp") {
+    throw Failure(
+        usage,
+        "--certificate: a certificate refers to vertices by number, which a file of format '"
+            + extension + "' does not give back; write off, obj or ply");
+  }
+  files_.announce(arguments_.certificate);
+}
+
+void Simplify::read()
+{
+  input_ = read_mesh(arguments_.input, arguments_.reading);
+  lap("read");
+  try {
+    input_statistics_ = mesh_statistics(input_);
+  } catch (const Invalid_input& error) {
+    throw Bad_file(arguments_.input, error.problem(), error.remedy());
+  }
+  lap("input_statistics");
+}
+
+void Simplify::simplify()
+{
+  Progress_bar bar(arguments_.is_quiet);
+  output_ = input_;
+  try {
+    certificate_ = make_geometric_mesh(
+        output_, tolerance_, simplify_parameters(arguments_.controls, Visitor(bar)));
+  } catch (const Invalid_input& error) {
+    if (error.argument() == "mesh")
+      throw Bad_file(arguments_.input, error.problem(), error.remedy());
+    throw Failure(usage, error.argument() + ": " + error.problem());
+  }
+  lap("geometric_mesh");
+  output_statistics_ = mesh_statistics(output_);
+  lap("output_statistics");
+}
+
+void Simplify::verify()
+{
+  if (!certificate_->holds()) {
+    throw Failure(
+        not_certified,
+        "the tolerance is " + to_text(tolerance_) + ", but only " + to_text(certificate_->bound())
+            + " was reached; nothing was written");
+  }
+  require_no_new_intersection();
+  if (arguments_.skips_verification) return;
+  if (certificate_->correspondence()) {
+    verification_.certificate = check_certificate(input_, output_, *certificate_);
+    lap("verify_certificate");
+    if (!verification_.certificate->holds) {
+      throw Failure(
+          not_certified,
+          "the check of the certificate failed: " + verification_.certificate->reason
+              + "; nothing was written; please report this");
+    }
+  }
+  verification_.distance = certify_distance(input_, output_, tolerance_);
+  lap("verify_distance");
+  if (!verification_.distance->holds()) {
+    throw Failure(
+        not_certified,
+        std::string("the check of the distance ")
+            + (verification_.distance->refuted() ? "failed" : "came to no decision")
+            + "; nothing was written; please report this");
+  }
+}
+
+void Simplify::require_no_new_intersection() const
+{
+  const auto before = input_statistics_.self_intersections;
+  const auto after = output_statistics_.self_intersections;
+  if (arguments_.controls.allow_self_intersections || after <= before) return;
+  throw Failure(
+      not_certified,
+      "the result has " + to_text(after) + " self-intersections, the input has " + to_text(before)
+          + "; nothing was written; lower the tolerance, or admit this with "
+            "--allow-self-intersections");
+}
+
+void Simplify::write()
+{
+  const Deviation deviation{
+      output_.add_property_map<Mesh::Face_index, double>("f:deviation", 0).first, tolerance_};
+  files_.write(arguments_.output, [&](std::ostream& stream) {
+    write_mesh(stream, extension_of(arguments_.output), output_, deviation);
+  });
+  if (!arguments_.certificate.empty()) {
+    files_.write(arguments_.certificate, [&](std::ostream& stream) {
+      write_certificate(stream, *certificate_);
+    });
+  }
+  lap("write");
+  if (!arguments_.report.empty()) {
+    files_.write(arguments_.report, [&](std::ostream& stream) { stream << to_text(report()); });
+  }
+  stop_if_interrupted();
+  files_.commit();
+}
+
+Json Simplify::report() const
+{
+  Json json = new_report("simplify");
+  json["input"] = to_json(arguments_.input, input_statistics_);
+  json["output"] = to_json(arguments_.output, output_statistics_);
+  Json& certificate = json["certificate"];
+  certificate["tolerance"] = tolerance_;
+  certificate["bound"] = certificate_->bound();
+  certificate["holds"] = certificate_->holds();
+  const bool is_direct = arguments_.controls.deviation_bound == Deviation_bound::direct;
+  certificate["policy"] = is_direct ? "direct" : "accumulated";
+  if (verification_.certificate) {
+    certificate["certificate_check"] = {
+        {"bound", verification_.certificate->bound}, {"holds", verification_.certificate->holds}};
+  }
+  if (verification_.distance) {
+    certificate["distance_check"]
+        = {{"bound", verification_.distance->upper_bound()},
+           {"holds", verification_.distance->holds()}};
+  }
+  json["seconds"] = watch_.seconds();
+  json["operations"] = to_json(certificate_->operations());
+  return json;
+}
+
+void Simplify::print() const
+{
+  const double per_cent = 100. * double(output_statistics_.faces) / double(input_statistics_.faces);
+  std::cout << arguments_.input << '\n'
+            << to_text(input_statistics_, "  ") << arguments_.output << " (" << to_text(per_cent)
+            << " % of the faces)\n"
+            << to_text(output_statistics_, "  ") << "certificate\n  tolerance " << tolerance_
+            << " (" << 100 * tolerance_ / diagonal(input_)
+            << " % of the diagonal)\n  proven: no point of "
+            << "either surface is farther than " << certificate_->bound() << " from the other\n";
+  if (verification_.certificate) std::cout << "  checked from its record: holds\n";
+  if (verification_.distance) std::cout << "  checked by measuring both meshes: holds\n";
+  if (arguments_.skips_verification) std::cout << "  not checked independently\n";
+  std::cout << "seconds\n ";
+  for (const auto& [step, seconds] : watch_.seconds().items()) {
+    std::cout << ' ' << step << ' ' << seconds.get<double>();
+  }
+  std::cout << '\n';
+}
+
+void add_controls(CLI::App& command, Controls& controls)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const std::map<std::string, Deviation_bound> bounds
+      = {{"direct", Deviation_bound::direct}, {"accumulated", Deviation_bound::accumulated}};
+  command.add_option("--bound", controls.deviation_bound, "how the distance is bounded")
+      ->transform(CLI::CheckedTransformer(bounds).description("direct|accumulated"))
+      ->default_str("direct");
+  command
+      .add_option(
+          "--feature-angle", controls.feature_angle,
+          "keep edges that turn by more, in degrees, as ridges; 180: none")
+      ->check(between(0, 180))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--corner-angle", controls.corner_angle,
+          "keep vertices where ridges or borders turn by more, in degrees")
+      ->check(between(0, 180))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--roughness-angle", controls.roughness_angle,
+          "largest angle of a face to the original normals, in degrees; 180: any")
+      ->check(between(1e-6, 180))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--shape-ratio", controls.shape_ratio,
+          "how much worse than the old faces new ones may be")
+      ->check(between(1, infinity))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--shape-floor", controls.shape_floor, "quality Q up to which any new face is admitted")
+      ->check(between(1, infinity))
+      ->capture_default_str();
+  command.add_option("--flip-rounds", controls.flip_rounds, "rounds of edge flips; 0: none")
+      ->check(between(0, 1000))
+      ->capture_default_str();
+  command.add_flag(
+      "--allow-self-intersections", controls.allow_self_intersections,
+      "do not prevent new self-intersections");
+}
+
+} // namespace
+
+void add_simplify(CLI::App& program, Exit_status&)
+{
+  const auto command = program.add_subcommand(
+      "simplify", "Makes a mesh with far fewer faces within a proven distance");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("IN", arguments->input, "mesh to simplify: off, obj, ply or stl")->required();
+  command
+      ->add_option(
+          "-o,--output", arguments->output,
+          "simplified mesh: off, obj, ply, stl or vtp; ply and vtp show the deviation of each face")
+      ->required();
+  command
+      ->add_option(
+          "-t,--tolerance", arguments->tolerance,
+          "largest distance between the two, either way: a length (0.5) or a per cent of the "
+          "bounding-box diagonal (0.1%)")
+      ->required();
+  command->add_option("--placement", arguments->placement, "where vertices may go")
+      ->check(CLI::IsMember({"on-surface"}))
+      ->capture_default_str();
+  add_controls(*command, arguments->controls);
+  command->add_flag(
+      "--triangulate", arguments->reading.triangulate, "split faces with more than three corners");
+  command->add_option(
+      "--certificate", arguments->certificate, "write the proof to this file, for surety verify");
+  command->add_option("--report", arguments->report, "write all figures to this JSON file");
+  command->add_flag(
+      "--no-verify", arguments->skips_verification, "leave the independent checks out");
+  command->add_flag("--quiet", arguments->is_quiet, "print nothing but errors");
+  command->footer("Example: surety simplify part.stl -o part.off -t 0.1% --certificate part.cert");
+  command->callback([arguments] { Simplify(*arguments).run(); });
+}
+
+} // namespace surety::tool

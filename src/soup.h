@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A soup of polygons, as files hold it, and what can be wrong with one. A half-edge mesh cannot
+// even represent most of these defects, so they must be found, and named, before there is a mesh.
+#ifndef SURETY_TOOL_SOUP_H
+#define SURETY_TOOL_SOUP_H
+
+#include "mesh.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace surety::tool {
+
+struct Soup {
+  using Polygon = std::vector<std::size_t>;
+
+  std::vector<Point> points;
+  std::vector<Polygon> polygons;
+};
+
+/// Merges points that are equal, if no two polygons share one: then the file knows no
+/// connectivity, as an STL file. A soup that has some connectivity is left as it is, for what
+/// touches in it without being connected may well be meant so.
+void stitch_if_unconnected(Soup& soup);
+
+/// Turns polygons round where neighbours disagree, and only there.
+/// \throws Bad_file if the surface has one side only.
+void orient(Soup& soup, const std::string& file);
+
+/// \throws Bad_file unless the soup is a manifold surface: indices that exist, finite
+/// coordinates, no isolated vertex, no polygon twice, at most two polygons an edge, one fan a
+/// vertex; and triangles only, unless polygons are admitted.
+void require_manifold(const Soup& soup, const std::string& file, bool admit_polygons);
+
+} // namespace surety::tool
+
+#endif // SURETY_TOOL_SOUP_H

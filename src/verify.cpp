@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// surety verify: checks a certificate file against the two meshes, and trusts neither.
+#include "commands.h"
+#include "instantiations.h"
+#include "mesh_reading.h"
+#include "output_files.h"
+#include "report.h"
+
+#include <fstream>
+#include <iostream>
+
+namespace surety::tool {
+namespace {
+
+struct Verify {
+  std::string input, output, certificate, report;
+  Reading reading;
+  bool is_quiet = false;
+
+  Exit_status run() const;
+  void print(const Certificate& claim, const Certificate_check& check) const;
+};
+
+Certificate read_certificate_file(const std::string& file)
+{
+  std::ifstream stream(file);
+  if (!stream) throw Bad_file(file, "the file cannot be read", "");
+  try {
+    return read_certificate(stream);
+  } catch (const Invalid_input& error) {
+    throw Bad_file(file, error.problem(), error.remedy());
+  }
+}
+
+Exit_status Verify::run() const
+{
+  Output_files files({input, output, certificate});
+  if (!report.empty()) files.announce(report);
+  Stopwatch watch;
+  const Mesh original = read_mesh(input, reading);
+  // The output is what the certificate is about: vertex by vertex, as it was written.
+  const Mesh result = read_mesh(output, {false, false});
+  const Certificate claim = read_certificate_file(certificate);
+  watch.lap("read");
+  const Certificate_check check = check_certificate(original, result, claim);
+  watch.lap("verify");
+
+  Json json = new_report("verify");
+  json["files"] = {{"input", input}, {"output", output}, {"certificate", certificate}};
+  json["certificate"]
+      = {{"tolerance", claim.tolerance()},
+         {"bound", check.bound},
+         {"holds", check.holds},
+         {"reason", check.reason}};
+  json["seconds"] = watch.seconds();
+  if (!report.empty()) {
+    files.write(report, [&](std::ostream& stream) { stream << to_text(json); });
+    files.commit();
+  }
+  if (!is_quiet) print(claim, check);
+  return check.holds ? done : not_certified;
+}
+
+void Verify::print(const Certificate& claim, const Certificate_check& check) const
+{
+  if (check.holds) {
+    std::cout << "the certificate holds: " << input << " and " << output << " lie within "
+              << check.bound << " of each other (tolerance " << claim.tolerance() << ")\n";
+  } else {
+    std::cout << "the certificate does not hold: " << check.reason << '\n';
+  }
+}
+
+} // namespace
+
+void add_verify(CLI::App& program, Exit_status& status)
+{
+  const auto command = program.add_subcommand("verify", "Checks a certificate file");
+  const auto verify = std::make_shared<Verify>();
+  command->add_option("IN", verify->input, "the original mesh")->required();
+  command->add_option("OUT", verify->output, "the simplified mesh, as it was written")->required();
+  command->add_option("CERTIFICATE", verify->certificate, "the certificate file")->required();
+  command->add_flag(
+      "--triangulate", verify->reading.triangulate,
+      "split faces of the original mesh with more corners, as when it was simplified");
+  command->add_option("--report", verify->report, "write the answer to this JSON file");
+  command->add_flag("--quiet", verify->is_quiet, "print nothing but errors");
+  command->footer("The exit status is 0 if the certificate holds, and 4 if it does not.\n"
+                  "Example: surety verify part.off simplified.off simplified.cert");
+  command->callback([verify, &status] { status = verify->run(); });
+}
+
+} // namespace surety::tool
