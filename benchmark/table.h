@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Tables of comma-separated values on standard output, a row as soon as it is known.
+#ifndef SURETY_BENCHMARK_TABLE_H
+#define SURETY_BENCHMARK_TABLE_H
+
+#include "child.h"
+
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace surety::benchmark {
+
+class Table
+{
+public:
+  explicit Table(std::vector<std::string> columns) : columns_(std::move(columns))
+  {
+    for (const auto& column : columns_) write(column, column);
+  }
+
+  /// Columns that the record lacks stay empty.
+  void add(const Record& record) const
+  {
+    for (const auto& column : columns_) {
+      const auto found = record.find(column);
+      write(column, found == record.end() ? std::string() : found->second);
+    }
+  }
+
+private:
+  void write(const std::string& column, const std::string& value) const
+  {
+    const bool is_last = &column == &columns_.back();
+    std::cout << quoted(value) << (is_last ? '\n' : ',');
+    if (is_last) std::cout.flush();
+  }
+
+  static std::string quoted(const std::string& value)
+  {
+    if (value.find_first_of(",\"") == std::string::npos) return value;
+    std::string text = "\"";
+    for (const char c : value) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return text + '"';
+  }
+
+  std::vector<std::string> columns_;
+};
+
+} // namespace surety::benchmark
+
+#endif // SURETY_BENCHMARK_TABLE_H
