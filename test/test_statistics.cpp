@@ -138,11 +138,11 @@ TEST(Mesh_statistics, count_intersecting_pairs)
 
 TEST(Mesh_statistics, share_of_good_faces_is_in_per_cent)
 {
-  // One good face and three needles round it.
+  // Equilateral; right-angled with legs 1 and 3, Q = 2.18; right isosceles, Q = 1.39; a cap.
   const Mesh mesh = to_mesh(
-      {{at(0, 0), at(1, 0), at(0.5, 0.9), at(0.5, -0.01), at(0, 0.5), at(1, 0.5)},
-       {{0, 1, 2}, {1, 0, 3}}});
-  EXPECT_EQ(mesh.number_of_vertices(), 6u);
+      {{at(0, 0), at(1, 0), at(0.5, std::sqrt(3.0) / 2), at(0, -3), at(5, 0), at(6, 0), at(5, 1),
+        at(5.5, -0.01)},
+       {{0, 1, 2}, {1, 0, 3}, {4, 5, 6}, {5, 4, 7}}});
   const auto s = mesh_statistics(mesh);
   EXPECT_EQ(s.Q_le_2, 50);
   EXPECT_GT(s.Q_max, 10);
