@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One call of make_geometric_mesh with all that belongs to it, and the claims that hold for every
+// such call. Each claim is checked against something that shares no code with the simplification:
+// the certificate checker, the distance verifier, sampled distances, CGAL.
+#ifndef SURETY_TEST_SIMPLIFICATION_H
+#define SURETY_TEST_SIMPLIFICATION_H
+
+#include <surety/distance.h>
+#include <surety/geometric_mesh.h>
+
+#include "invariants.h"
+#include "sampled_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace surety::test {
+
+struct Simplification {
+  Mesh input, output;
+  Certificate certificate;
+};
+
+template <class NamedParameters = CGAL::parameters::Default_named_parameters>
+Simplification simplified(
+    const Mesh& input, double tolerance,
+    const NamedParameters& np = CGAL::parameters::default_values())
+{
+  Mesh output = input;
+  Certificate certificate = make_geometric_mesh(output, tolerance, np);
+  return {input, std::move(output), std::move(certificate)};
+}
+
+inline double diagonal(const Mesh& mesh)
+{
+  CGAL::Bbox_3 box;
+  for (const Vertex v : mesh.vertices()) box += mesh.point(v).bbox();
+  return std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+}
+
+/// What rounding may add to a sampled distance.
+inline double sampling_error(const Mesh& mesh)
+{
+  double largest = 0;
+  for (const Vertex v : mesh.vertices())
+    for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(mesh.point(v)[i]));
+  return 1e-13 * largest;
+}
+
+/// The bounds of the faces in iteration order.
+inline std::vector<double> deviations(const Mesh& mesh)
+{
+  const auto [map, exists] = mesh.property_map<Face, double>("f:deviation");
+  std::vector<double> result;
+  if (exists)
+    for (const Face f : mesh.faces()) result.push_back(map[f]);
+  return result;
+}
+
+inline void expect_sound_mesh(const Simplification& s)
+{
+  EXPECT_FALSE(s.output.has_garbage());
+  EXPECT_TRUE(is_sound(s.output));
+  EXPECT_EQ(topological_type(s.output), topological_type(s.input));
+  EXPECT_LE(s.output.number_of_faces(), s.input.number_of_faces());
+  std::set<Point> points;
+  for (const Vertex v : s.input.vertices()) points.insert(s.input.point(v));
+  for (const Vertex v : s.output.vertices()) EXPECT_EQ(points.count(s.output.point(v)), 1u);
+}
+
+inline void expect_no_new_intersections(const Simplification& s)
+{
+  const std::size_t after = number_of_self_intersections(s.output);
+  const std::size_t before = after == 0 ? 0 : number_of_self_intersections(s.input);
+  EXPECT_LE(after, before);
+}
+
+/// Each sampled point of a face lies within the bound of the face, and the bounds are what the
+/// certificate says.
+inline void expect_sound_deviations(const Simplification& s, int cuts)
+{
+  const std::vector<double> bounds = deviations(s.output);
+  ASSERT_EQ(bounds.size(), s.output.number_of_faces());
+  EXPECT_EQ(*std::max_element(bounds.begin(), bounds.end()), s.certificate.bound());
+
+  const Closest_triangle closest(s.input);
+  const double error = sampling_error(s.input);
+  const Soup soup = to_soup(s.output);
+  for (std::size_t f = 0; f < bounds.size(); ++f) {
+    const Point a = soup.points[soup.triangles[f][0]];
+    const Vector u = soup.points[soup.triangles[f][1]] - a,
+                 v = soup.points[soup.triangles[f][2]] - a;
+    EXPECT_GE(bounds[f], 0);
+    double largest = 0;
+    for (int i = 0; i <= 2 * cuts; ++i)
+      for (int j = 0; i + j <= 2 * cuts; ++j)
+        largest = std::max(largest, closest.distance(a + 0.5 * i / cuts * u + 0.5 * j / cuts * v));
+    EXPECT_LE(largest, bounds[f] + error) << "face " << f << " of the output";
+  }
+  EXPECT_LE(sampled_distance_to(s.input, s.output, 1, cuts), s.certificate.bound() + error);
+}
+
+inline void expect_proof(const Simplification& s)
+{
+  EXPECT_TRUE(s.certificate.holds())
+      << s.certificate.bound() << " for " << s.certificate.tolerance();
+  if (!s.certificate.correspondence()) return;
+  const Certificate_check check = check_certificate(s.input, s.output, s.certificate);
+  EXPECT_TRUE(check.holds) << check.reason;
+  EXPECT_LE(check.bound, s.certificate.tolerance());
+}
+
+/// The verifier knows the two meshes only. It may leave undecided what is as close as rounding.
+inline void expect_verified_distance(const Simplification& s)
+{
+  const double bound = std::max(s.certificate.bound() * (1 + 1e-3), 1e-12 * diagonal(s.input));
+  const auto proof = certify_distance(s.input, s.output, bound);
+  EXPECT_TRUE(proof.holds()) << bound << (proof.refuted() ? ": refuted" : ": undecided");
+}
+
+inline void expect_sound(const Simplification& s, int cuts = 2)
+{
+  expect_sound_mesh(s);
+  expect_no_new_intersections(s);
+  expect_proof(s);
+  expect_sound_deviations(s, cuts);
+}
+
+/// Same points in the same order, same faces starting at the same corners.
+inline bool is_identical(const Mesh& a, const Mesh& b)
+{
+  const Soup x = to_soup(a), y = to_soup(b);
+  return x.points == y.points && x.triangles == y.triangles;
+}
+
+/// The same, wherever the faces start.
+inline bool have_same_faces(const Mesh& a, const Mesh& b)
+{
+  Soup x = to_soup(a), y = to_soup(b);
+  for (Soup* soup : {&x, &y})
+    for (auto& t : soup->triangles)
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return x.points == y.points && x.triangles == y.triangles;
+}
+
+/// Everything that a mesh consists of, garbage and the names of its properties included: two equal
+/// fingerprints mean that nothing was touched.
+inline std::vector<std::string> fingerprint(const Mesh& mesh)
+{
+  std::vector<std::string> lines;
+  const auto names = [&](auto properties) {
+    std::string line;
+    for (const std::string& name : properties) line += name + ' ';
+    lines.push_back(line);
+  };
+  names(mesh.properties<Vertex>());
+  names(mesh.properties<Mesh::Halfedge_index>());
+  names(mesh.properties<Mesh::Edge_index>());
+  names(mesh.properties<Face>());
+  for (Mesh::size_type i = 0; i < mesh.num_vertices(); ++i) {
+    const Vertex v(i);
+    const Point& p = mesh.point(v);
+    const double coordinates[3] = {p.x(), p.y(), p.z()};
+    std::string line(sizeof coordinates, '\0'); // bit by bit: NaN equals itself
+    std::memcpy(line.data(), coordinates, sizeof coordinates);
+    lines.push_back(
+        line + std::to_string(mesh.halfedge(v)) + (mesh.is_removed(v) ? " removed" : ""));
+  }
+  for (Mesh::size_type i = 0; i < mesh.num_halfedges(); ++i) {
+    const Mesh::Halfedge_index h(i);
+    lines.push_back(
+        std::to_string(mesh.next(h)) + ' ' + std::to_string(mesh.prev(h)) + ' '
+        + std::to_string(mesh.target(h)) + ' ' + std::to_string(mesh.face(h))
+        + (mesh.is_removed(h) ? " removed" : ""));
+  }
+  for (Mesh::size_type i = 0; i < mesh.num_faces(); ++i) {
+    const Face f(i);
+    lines.push_back(std::to_string(mesh.halfedge(f)) + (mesh.is_removed(f) ? " removed" : ""));
+  }
+  return lines;
+}
+
+// ---- curves ----
+
+struct Segment {
+  Point source, target;
+};
+using Curves = std::vector<Segment>;
+
+template <class Predicate>
+Curves curves_where(const Mesh& mesh, const Predicate& is_wanted)
+{
+  Curves result;
+  for (const auto e : mesh.edges())
+    if (is_wanted(e))
+      result.push_back({mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))});
+  return result;
+}
+
+inline Curves border_curves(const Mesh& mesh)
+{
+  return curves_where(mesh, [&](auto e) { return mesh.is_border(e); });
+}
+
+/// The angle by which the surface turns at an edge, in degrees; 0 on the border.
+inline double dihedral_turn(const Mesh& mesh, Mesh::Edge_index e)
+{
+  if (mesh.is_border(e)) return 0;
+  const auto normal = [&](Mesh::Halfedge_index h) {
+    const Vector n = CGAL::normal(
+        mesh.point(mesh.source(h)), mesh.point(mesh.target(h)),
+        mesh.point(mesh.target(mesh.next(h))));
+    return n / std::sqrt(n.squared_length());
+  };
+  const auto h = mesh.halfedge(e);
+  const Vector m = normal(h), n = normal(mesh.opposite(h));
+  const Vector c = CGAL::cross_product(m, n);
+  return std::atan2(std::sqrt(c.squared_length()), m * n) * 180 / pi;
+}
+
+inline Curves sharp_curves(const Mesh& mesh, double angle)
+{
+  return curves_where(mesh, [&](auto e) { return dihedral_turn(mesh, e) > angle; });
+}
+
+inline double distance_to_curves(const Point& p, const Curves& curves)
+{
+  double best = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b] : curves) {
+    const Vector ab = b - a;
+    const double t = std::clamp((p - a) * ab / ab.squared_length(), 0.0, 1.0);
+    best = std::min(best, (p - (a + t * ab)).squared_length());
+  }
+  return std::sqrt(best);
+}
+
+/// Two-sided, sampled.
+inline double curve_distance(const Curves& a, const Curves& b)
+{
+  const auto one_way = [](const Curves& from, const Curves& to) {
+    double largest = 0;
+    for (const auto& [p, q] : from)
+      for (int i = 0; i <= 6; ++i)
+        largest = std::max(largest, distance_to_curves(p + i / 6.0 * (q - p), to));
+    return largest;
+  };
+  return std::max(one_way(a, b), one_way(b, a));
+}
+
+inline bool has_vertex_at(const Mesh& mesh, const Point& p)
+{
+  return std::any_of(
+      mesh.vertices_begin(), mesh.vertices_end(), [&](Vertex v) { return mesh.point(v) == p; });
+}
+
+} // namespace surety::test
+
+#endif // SURETY_TEST_SIMPLIFICATION_H
