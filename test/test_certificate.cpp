@@ -452,6 +452,44 @@ TEST(Check_certificate, I3_refuses_a_triangle_that_winds_about_an_unpinned_verte
   }
 }
 
+/// The other edges of the output at one end of an edge, in order from one side of it to the other.
+std::vector<Correspondence::Crossing> other_way_around(
+    const Mesh& output, Vertex w, Vertex x, double lambda)
+{
+  std::vector<Correspondence::Crossing> spokes;
+  const auto start = output.halfedge(x, w);
+  for (auto h = output.opposite(output.next(start)); h != start;
+       h = output.opposite(output.next(h))) {
+    const Image e = on_edge(output.source(h), w);
+    spokes.push_back({e.a, e.b, lambda});
+  }
+  return spokes;
+}
+
+TEST_P(Overlay, I3_refuses_a_crossing_led_around_the_other_side_of_a_vertex)
+{
+  const Mapped_pair sound = sphere_on_hull(2, 20, seed);
+  for (std::size_t edge = 0; edge < sound.record.edges.size(); ++edge) {
+    const auto crossings = crossings_of(sound, edge);
+    int refused_by_I3 = 0;
+    for (int variant = 0; variant < 4; ++variant) {
+      Mapped_pair broken = sound;
+      const auto& c = crossings[edge % crossings.size()];
+      auto detour = other_way_around(
+          sound.output, Vertex(variant % 2 ? c.a : c.b), Vertex(variant % 2 ? c.b : c.a), c.lambda);
+      if (variant / 2) std::reverse(detour.begin(), detour.end());
+      auto changed = crossings;
+      const auto place = changed.begin() + std::ptrdiff_t(edge % crossings.size());
+      changed.insert(changed.erase(place), detour.begin(), detour.end());
+      set_crossings(broken, edge, changed);
+      const Certificate_check answer = check(broken);
+      EXPECT_FALSE(answer.holds);
+      refused_by_I3 += answer.reason.substr(0, 3) == "I3:";
+    }
+    EXPECT_GE(refused_by_I3, 2); // the other two turn the wrong way, and break I1
+  }
+}
+
 TEST(Check_certificate, degree_refuses_a_sphere_folded_onto_its_northern_half)
 {
   Mapped_pair pair = identity(bipyramid(5));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Certificates of real simplifications, damaged on purpose: damage that changes the meaning is
-// caught, and whatever is accepted is still true by sampling. Seeds are in the names of the tests.
+// caught, and whatever is accepted is still true by the verifier of distances. Seeds are in the
+// names of the tests.
 #include <surety/geometric_mesh.h>
 
 #include "overlay.h"
@@ -222,7 +223,7 @@ bool mutate(Correspondence& r, const Mesh& output, Random& random)
 TEST_P(Simplification, what_is_accepted_after_damage_is_true)
 {
   const Simplified sound = example(seed);
-  const double distance = sampled_distance(sound.input, sound.output, seed);
+  double least_bound = sound.certificate.tolerance();
   Random random(seed);
   std::map<std::string, int> answers;
   for (int i = 0; i < 1000; ++i) {
@@ -232,9 +233,10 @@ TEST_P(Simplification, what_is_accepted_after_damage_is_true)
     }
     const Certificate_check answer = sound.check(record);
     ++answers[answer.holds ? "holds" : answer.reason.substr(0, answer.reason.find(':'))];
-    EXPECT_GE(answer.bound, distance); // infinite if it does not hold
+    least_bound = std::min(least_bound, answer.bound); // infinite if it does not hold
   }
   // Only images that moved a little and parameters that changed a little may pass.
+  EXPECT_TRUE(surety::certify_distance(sound.input, sound.output, least_bound * 1.001).holds());
   for (const auto& [answer, times] : answers) RecordProperty(answer, times);
   EXPECT_LT(answers["holds"], 250);
   EXPECT_GT(answers["I1"], 0);

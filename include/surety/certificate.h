@@ -6,9 +6,7 @@
 #define SURETY_CERTIFICATE_H
 
 #include <surety/correspondence.h>
-#if __has_include(<surety/distance.h>)
 #include <surety/distance.h>
-#endif
 #include <surety/errors.h>
 #include <surety/internal/certificate/checker.h>
 #include <surety/internal/certificate/text_format.h>
