@@ -23,7 +23,7 @@ struct Compare {
   Exit_status run() const;
 
 private:
-  void measure(const Mesh& a, const Mesh& b, double accuracy_in_units, Json& json) const;
+  Exit_status measure(const Mesh& a, const Mesh& b, double accuracy_in_units, Json& json) const;
   Exit_status decide(const Mesh& a, const Mesh& b, double tolerance_in_units, Json& json) const;
   void print(const char* name, const Distance_interval& interval) const;
 };
@@ -32,6 +32,7 @@ Json to_json(const Witness& witness)
 {
   return {
       {"point", witness.point},
+      {"mesh", witness.is_on_first ? "A" : "B"},
       {"face", witness.face},
       {"distance_lower_bound", witness.distance_lower_bound}};
 }
@@ -45,7 +46,8 @@ Json to_json(const Distance_interval& interval)
 std::string describe(const Witness& witness)
 {
   return "(" + to_text(witness.point[0]) + ", " + to_text(witness.point[1]) + ", "
-      + to_text(witness.point[2]) + ") on face " + std::to_string(witness.face);
+      + to_text(witness.point[2]) + ") on face " + std::to_string(witness.face)
+      + (witness.is_on_first ? " of A" : " of B");
 }
 
 Exit_status Compare::run() const
@@ -65,7 +67,10 @@ Exit_status Compare::run() const
   const double length = diagonal(a);
   if (bound) status = decide(a, b, bound->in_units(length), json);
   watch.lap("decide");
-  if (!bound || eps) measure(a, b, eps ? eps->in_units(length) : 1e-4 * length, json);
+  if (!bound || eps) {
+    const auto measured = measure(a, b, eps ? eps->in_units(length) : 1e-4 * length, json);
+    if (status == done) status = measured;
+  }
   watch.lap("measure");
   json["seconds"] = watch.seconds();
   if (!report.empty()) {
@@ -75,7 +80,8 @@ Exit_status Compare::run() const
   return status;
 }
 
-void Compare::measure(const Mesh& a, const Mesh& b, double accuracy_in_units, Json& json) const
+Exit_status Compare::measure(
+    const Mesh& a, const Mesh& b, double accuracy_in_units, Json& json) const
 {
   const Hausdorff_distance distance = hausdorff_distance(a, b, accuracy_in_units);
   json["distance"]
@@ -84,11 +90,14 @@ void Compare::measure(const Mesh& a, const Mesh& b, double accuracy_in_units, Js
          {"upper", distance.upper()},
          {"A_to_B", to_json(distance.forward)},
          {"B_to_A", to_json(distance.backward)}};
-  if (is_quiet) return;
+  const Exit_status status = distance.is_accurate() ? done : not_certified;
+  if (is_quiet) return status;
   print("from A to B", distance.forward);
   print("from B to A", distance.backward);
   std::cout << "Hausdorff distance: between " << distance.lower() << " and " << distance.upper()
             << '\n';
+  if (status != done) std::cout << "the accuracy asked for was not reached\n";
+  return status;
 }
 
 void Compare::print(const char* name, const Distance_interval& interval) const

@@ -11,9 +11,11 @@ template Certificate_check check_certificate(
     const tool::Mesh&, const tool::Mesh&, const Certificate&, const tool::No_parameters&,
     const tool::No_parameters&);
 template Distance_certificate certify_distance(
-    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&);
+    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&,
+    const tool::No_parameters&);
 template Hausdorff_distance hausdorff_distance(
-    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&);
+    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&,
+    const tool::No_parameters&);
 template Features find_features(const tool::Mesh&, const tool::Feature_parameters&);
 template Mesh_statistics mesh_statistics(const tool::Mesh&, const tool::No_parameters&);
 

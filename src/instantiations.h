@@ -65,9 +65,11 @@ extern template Certificate_check check_certificate(
     const tool::Mesh&, const tool::Mesh&, const Certificate&, const tool::No_parameters&,
     const tool::No_parameters&);
 extern template Distance_certificate certify_distance(
-    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&);
+    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&,
+    const tool::No_parameters&);
 extern template Hausdorff_distance hausdorff_distance(
-    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&);
+    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&,
+    const tool::No_parameters&);
 extern template Features find_features(const tool::Mesh&, const tool::Feature_parameters&);
 extern template Mesh_statistics mesh_statistics(const tool::Mesh&, const tool::No_parameters&);
 

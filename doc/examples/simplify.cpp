@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Simplifies a mesh within a tolerance, and prints what is proven about the result.
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <surety/geometric_mesh.h>
+
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+#include <iostream>
+
+int main(int argc, char* argv[])
+{
+  CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3> mesh;
+  if (argc != 4 || !CGAL::IO::read_polygon_mesh(argv[1], mesh)) {
+    std::cerr << "usage: simplify input.off output.off tolerance\n";
+    return EXIT_FAILURE;
+  }
+  const auto certificate = surety::make_geometric_mesh(mesh, std::stod(argv[3]));
+  std::cout << mesh.number_of_faces() << " faces, proven to lie within " << certificate.bound()
+            << " of the input\n";
+  const auto exactly = CGAL::parameters::stream_precision(17);
+  const bool is_written = CGAL::IO::write_polygon_mesh(argv[2], mesh, exactly);
+  return is_written && certificate.holds() ? EXIT_SUCCESS : EXIT_FAILURE;
+}

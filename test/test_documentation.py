@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# The documentation says what the program does: programs are quoted word for word from the
+# examples that are compiled and run, every flag is in the manual, every link leads somewhere.
+import os
+import re
+import subprocess
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+PAGES = [ROOT / "README.md", *sorted((ROOT / "doc/manual").glob("*.md"))]
+QUOTE = re.compile(r"<!-- (doc/examples/\S+) -->\n```cpp\n(.*?)```", re.DOTALL)
+COMMANDS = ("simplify", "compare", "verify", "info")
+
+
+def without_header(source):
+    """A source without the licence and the comment that opens it."""
+    lines = source.splitlines(keepends=True)
+    while lines and lines[0].startswith("//"):
+        lines.pop(0)
+    return "".join(lines)
+
+
+def flags(text):
+    return set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", text))
+
+
+class Documentation(unittest.TestCase):
+    def test_programs_are_quoted_from_disk(self):
+        quotes = 0
+        for page in PAGES:
+            for name, text in QUOTE.findall(page.read_text()):
+                quotes += 1
+                with self.subTest(page=page.name, example=name):
+                    self.assertEqual(text, without_header((ROOT / name).read_text()))
+        self.assertGreater(quotes, 0)
+
+    def test_links_lead_somewhere(self):
+        for page in PAGES:
+            for link in re.findall(r"\]\(([^)#]+)[^)]*\)", page.read_text()):
+                if "://" not in link:
+                    with self.subTest(page=page.name, link=link):
+                        self.assertTrue((page.parent / link).exists())
+
+    def test_the_manual_and_the_help_agree_about_flags(self):
+        surety = os.environ.get("SURETY", "surety")
+        manual = (ROOT / "doc/manual/command_line.md").read_text()
+        helps = [
+            subprocess.run([surety, *command, "--help"], capture_output=True, text=True,
+                           check=True).stdout
+            for command in ((), *((name,) for name in COMMANDS))
+        ]
+        self.assertEqual(flags(manual), flags("\n".join(helps)))
+
+
+if __name__ == "__main__":
+    unittest.main()
