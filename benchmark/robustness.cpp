@@ -6,10 +6,12 @@
 #include "child.h"
 #include "failure.h"
 #include "models.h"
+#include "program.h"
+#include "simplification.h"
 #include "stopwatch.h"
 #include "table.h"
 
-#include <surety/geometric_mesh.h>
+#include <surety/certificate.h>
 #include <surety/statistics.h>
 
 #include <CGAL/boost/graph/helpers.h>
@@ -30,8 +32,7 @@ using namespace surety::benchmark;
 struct Settings {
   std::vector<std::string> models;
   std::vector<double> tolerances = {1, 0.1, 0.01};
-  double feature_angle = surety::internal::defaults::feature_angle;
-  bool accumulated = false;
+  Controls controls;
   bool triangulate = false;
   unsigned cpu_limit = 120;
 };
@@ -51,15 +52,6 @@ public:
 private:
   std::string text_;
 };
-
-surety::Certificate simplify(Mesh& mesh, double tolerance, const Settings& settings)
-{
-  const auto bound = settings.accumulated ? surety::Deviation_bound::accumulated
-                                          : surety::Deviation_bound::direct;
-  return surety::make_geometric_mesh(
-      mesh, tolerance,
-      surety::parameters::feature_angle(settings.feature_angle).deviation_bound(bound));
-}
 
 void compare_statistics(
     const surety::Mesh_statistics& before, const surety::Mesh_statistics& after,
@@ -92,13 +84,13 @@ void check_deviation_map(
 
 void check_proofs(
     const Mesh& input, const Mesh& output, const surety::Certificate& certificate,
-    const Settings& settings, const Report& report, Problems& problems)
+    const Report& report, Problems& problems)
 {
   const double tolerance = certificate.tolerance();
   report.set("certified_over_tolerance", certificate.bound() / tolerance);
   problems.require(certificate.holds(), "the certificate does not hold");
   check_deviation_map(output, certificate, problems);
-  if (!settings.accumulated) {
+  if (certificate.correspondence()) {
     report.set("stage", "check_certificate");
     const Stopwatch stopwatch;
     const auto check = surety::check_certificate(input, output, certificate);
@@ -128,7 +120,7 @@ void run_case(
   report.set("input_faces", input.number_of_faces());
   Mesh output = input;
   const Stopwatch stopwatch;
-  const auto certificate = simplify(output, tolerance, settings);
+  const auto certificate = simplify(output, tolerance, settings.controls);
   report.set("simplify_seconds", stopwatch.seconds());
 
   Problems problems;
@@ -138,7 +130,7 @@ void run_case(
   report.set("stage", "statistics");
   compare_statistics(
       surety::mesh_statistics(input), surety::mesh_statistics(output), report, problems);
-  check_proofs(input, output, certificate, settings, report, problems);
+  check_proofs(input, output, certificate, report, problems);
   report.set("stage", "end");
   report.set("status", problems.text().empty() ? "ok" : "FAILED");
   report.set("message", problems.text());
@@ -184,21 +176,16 @@ Settings parse(int argc, char* argv[])
       "row a mesh and tolerance, in CPU seconds. Exit status 1 if a promise was broken.");
   Settings settings;
   const Models models(program);
+  bool accumulated = false;
   program.add_option("models", settings.models, "Names of models, or files; default: all");
-  program.add_option("-t,--tolerance", settings.tolerances, "In per cent of the diagonal")
-      ->delimiter(',')
-      ->capture_default_str();
-  program.add_option("--feature-angle", settings.feature_angle, "In degrees")
-      ->capture_default_str();
-  program.add_flag("--accumulated", settings.accumulated, "Use the accumulated bound");
+  add_tolerances(program, settings.tolerances);
+  add_options(program, settings.controls);
+  add_cpu_limit(program, settings.cpu_limit);
+  program.add_flag("--accumulated", accumulated, "Use the accumulated bound");
   program.add_flag("--triangulate", settings.triangulate, "Split faces of more than three corners");
-  program.add_option("--limit", settings.cpu_limit, "CPU seconds that a case may take")
-      ->capture_default_str();
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(program.exit(error));
-  }
+  parse_or_exit(program, argc, argv);
+
+  if (accumulated) settings.controls.bound = surety::Deviation_bound::accumulated;
   for (auto& model : settings.models) model = models.path(model);
   if (settings.models.empty()) settings.models = models.all();
   return settings;
@@ -244,10 +231,5 @@ int run(const Settings& settings)
 
 int main(int argc, char* argv[])
 {
-  try {
-    return run(parse(argc, argv));
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
+  return run_program([&] { return run(parse(argc, argv)); });
 }

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How few faces? Simplifies models with the library and with its peers and prints, for each result,
+// the number of faces, the CPU time, what is certified and what the distance really is. Peers that
+// know no tolerance are given the number of faces that ours reached.
+#include "child.h"
+#include "distances.h"
+#include "models.h"
+#include "peers.h"
+#include "program.h"
+#include "simplification.h"
+#include "stopwatch.h"
+#include "table.h"
+
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace surety::benchmark;
+
+struct Settings {
+  std::vector<std::string> models
+      = {"fandisk",  "anchor_dense", "couplingdown", "rotor_small",     "turbine",
+         "elephant", "armadillo",    "bunny00",      "refined_elephant"};
+  std::vector<double> tolerances = {0.1};
+  Controls controls;
+  unsigned cpu_limit = 600;
+  bool skip_slow = false;
+};
+
+/// One model at one tolerance; the methods are compared with the first, our direct bound.
+class Comparison
+{
+public:
+  Comparison(const std::string& path, double per_cent, const Settings& settings, const Table& table)
+    : settings_(settings),
+      table_(table),
+      name_(model_name(path)),
+      input_(surety::tool::read_mesh(path, {})),
+      per_cent_(per_cent),
+      tolerance_(per_cent / 100 * diagonal(input_))
+  {}
+
+  void run()
+  {
+    run_ours("surety_direct", surety::Deviation_bound::direct);
+    run_ours("surety_accumulated", surety::Deviation_bound::accumulated);
+    for (const Peer& peer : all_peers()) {
+      if (!(settings_.skip_slow && peer.is_slow)) run_peer(peer);
+    }
+  }
+
+private:
+  void run_ours(const std::string& method, surety::Deviation_bound bound)
+  {
+    Controls controls = settings_.controls;
+    controls.bound = bound;
+    run_method(method, [&](Mesh& mesh, const Report& report) {
+      const Stopwatch stopwatch;
+      const auto certificate = simplify(mesh, tolerance_, controls);
+      report.set("seconds", stopwatch.seconds());
+      report.set("certified_over_tolerance", certificate.bound() / tolerance_);
+    });
+  }
+
+  void run_peer(const Peer& peer)
+  {
+    const Goal goal{tolerance_, static_cast<std::size_t>(our_faces_)};
+    run_method(peer.name, [&](Mesh& mesh, const Report& report) {
+      report.set("seconds", peer.simplify(mesh, goal));
+    });
+  }
+
+  template <class Method>
+  void run_method(const std::string& name, const Method& method)
+  {
+    auto [ending, record, message] = run_in_child(
+        [&](const Report& report) {
+          Mesh output = input_;
+          method(output, report);
+          report.set("faces", output.number_of_faces());
+          report_distance(input_, output, tolerance_, report);
+        },
+        settings_.cpu_limit);
+    record["model"] = name_;
+    record["input_faces"] = std::to_string(input_.number_of_faces());
+    std::ostringstream per_cent;
+    per_cent << per_cent_;
+    record["tolerance_per_cent"] = per_cent.str();
+    record["method"] = name;
+    if (ending != Ending::finished) record["message"] = to_string(ending) + ": " + message;
+    compare_with_ours(record);
+    table_.add(record);
+  }
+
+  void compare_with_ours(Record& record)
+  {
+    if (record.count("faces") == 0 || record.count("seconds") == 0) return;
+    const double faces = std::stod(record["faces"]), seconds = std::stod(record["seconds"]);
+    if (our_faces_ == 0) {
+      our_faces_ = faces;
+      our_seconds_ = seconds;
+    }
+    record["our_faces_over_its"] = std::to_string(our_faces_ / faces);
+    record["our_seconds_over_its"] = std::to_string(our_seconds_ / seconds);
+  }
+
+  const Settings& settings_;
+  const Table& table_;
+  std::string name_;
+  Mesh input_;
+  double per_cent_, tolerance_;
+  double our_faces_ = 0, our_seconds_ = 0;
+};
+
+int run(int argc, char* argv[])
+{
+  CLI::App program(
+      "Prints the number of faces that the library and its peers need within a tolerance, with "
+      "CPU seconds, the certified bound and the true distance.");
+  Settings settings;
+  const Models models(program);
+  add_models(program, settings.models);
+  add_tolerances(program, settings.tolerances);
+  add_options(program, settings.controls);
+  add_cpu_limit(program, settings.cpu_limit);
+  program.add_flag("--skip-slow", settings.skip_slow, "Leave out the peers that may take a minute");
+  parse_or_exit(program, argc, argv);
+
+  std::vector<std::string> columns
+      = {"model",
+         "input_faces",
+         "tolerance_per_cent",
+         "method",
+         "faces",
+         "our_faces_over_its",
+         "seconds",
+         "our_seconds_over_its",
+         "certified_over_tolerance"};
+  columns.insert(columns.end(), distance_columns().begin(), distance_columns().end());
+  columns.push_back("message");
+  const Table table(columns);
+  for (const auto& model : settings.models) {
+    for (const double tolerance : settings.tolerances)
+      Comparison(models.path(model), tolerance, settings, table).run();
+  }
+  return EXIT_SUCCESS;
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  return run_program([&] { return run(argc, argv); });
+}
