@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -27,11 +28,12 @@ namespace surety {
 namespace internal {
 namespace hausdorff {
 
-/// A corner of cells; `face` is some face of the other mesh, the nearest one if `is_located`.
+/// A corner of cells, and a face of the other mesh: the nearest one if `is_located`.
 struct Corner {
   Point point;
   double error = 0; ///< zero for a vertex of the mesh
-  double upper = 0; ///< bound of the distance of the exact point to `face`, if `is_located`
+  /// Bound of the distance from the exact point to the face, infinite if not measured.
+  double upper = std::numeric_limits<double>::infinity();
   std::uint32_t face = 0;
   bool is_located = false;
 };

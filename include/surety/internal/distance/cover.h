@@ -21,7 +21,7 @@ namespace hausdorff {
 /// Upper bound of the distance of the exact point of a corner to a face.
 inline double corner_distance(const Corner& c, std::uint32_t face, const Face_tree& faces)
 {
-  if (c.is_located && c.face == face) return c.upper;
+  if (c.face == face && c.upper < std::numeric_limits<double>::infinity()) return c.upper;
   return distance_upper_bound(c.point, faces.triangle(face)) + c.error;
 }
 

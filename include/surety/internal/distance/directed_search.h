@@ -50,19 +50,23 @@ public:
     : from_(from), to_(to), options_(options)
   {}
 
-  /// The distances of all vertices: enough to refute most bounds.
+  /// The distances of the vertices: enough to refute most bounds. Vertices that are within the
+  /// threshold of a face of their neighbours cannot matter, and keep that face.
   void locate_vertices()
   {
     vertices_.resize(from_.number_of_points());
+    std::vector<bool> is_seen(from_.number_of_points(), false);
     result_.witness = from_.triangle(0)[0];
     std::uint32_t hint = 0;
     for (face_ = 0; face_ < from_.size() && !is_refuted(); ++face_) {
       for (const std::uint32_t v : from_.face(face_)) {
         Corner& vertex = vertices_[v];
-        if (!vertex.is_located) {
+        if (!is_seen[v]) {
+          is_seen[v] = true;
           vertex.point = from_.point(v);
+          vertex.upper = corner_distance(vertex, hint, to_);
           vertex.face = hint;
-          locate(vertex);
+          if (vertex.upper > threshold()) locate(vertex);
         }
         hint = vertex.face;
       }
@@ -214,23 +218,41 @@ private:
     stack_.push_back(pieces.second);
   }
 
-  /// Tries the faces that are near, in the order of their cost.
+  /// Tries the faces that are near, in the order of their cost. Corners within the threshold of one
+  /// of them need not be located.
   bool is_covered_at_all(Cell& cell, Cover& cover)
   {
     if (cell.bound <= threshold() || is_covered(cell, cover, cell.hint)) return true;
     for (int i = 0; i < cell.size(); ++i) {
       const Corner& corner = corners_[cell[i]];
-      if (corner.is_located && is_covered(cell, cover, corner.face)) return true;
+      if (is_measured(corner) && is_covered(cell, cover, corner.face)) return true;
     }
+    const std::uint32_t middle = to_.nearest(centre(cell), cell.hint).face;
+    if (is_covered(cell, cover, middle)) return true;
     for (int i = 0; i < cell.size(); ++i) {
       Corner& corner = corners_[cell[i]];
       if (corner.is_located) continue;
-      corner.face = cell.hint;
+      for (const std::uint32_t face : {cell.hint, middle}) measure(corner, face);
+      if (corner.upper <= threshold()) continue;
       locate(corner);
       if (is_refuted()) return false;
       if (is_covered(cell, cover, corner.face)) return true;
     }
-    return is_covered(cell, cover, to_.nearest(centre(cell), cell.hint).face);
+    return false;
+  }
+
+  static bool is_measured(const Corner& corner)
+  {
+    return corner.upper < std::numeric_limits<double>::infinity();
+  }
+
+  /// Gives a corner a face that is closer than its own.
+  void measure(Corner& corner, std::uint32_t face) const
+  {
+    const double upper = corner_distance(corner, face, to_);
+    if (upper >= corner.upper) return;
+    corner.upper = upper;
+    corner.face = face;
   }
 
   /// Whether a corner alone keeps the bound where it is, or the cell has become too small to cut.
@@ -238,7 +260,8 @@ private:
   {
     double farthest = 0;
     for (int i = 0; i < cell.size(); ++i) {
-      farthest = (std::max)(farthest, corners_[cell[i]].upper);
+      const Corner& corner = corners_[cell[i]];
+      if (corner.is_located) farthest = (std::max)(farthest, corner.upper);
     }
     const double rounding = 64 * unit_roundoff; // in units of the largest coordinate
     return cell.bound <= farthest + rounding || cell.depth >= greatest_depth;
