@@ -301,7 +301,7 @@ TEST_P(Moved_shape, two_runs_give_the_same_bits)
   const auto np = with::feature_angle(40);
   const Simplification first = simplified(input, tolerance, np),
                        second = simplified(input, tolerance, np);
-  EXPECT_EQ(fingerprint(first.output), fingerprint(second.output));
+  EXPECT_TRUE(fingerprint(first.output) == fingerprint(second.output));
   std::ostringstream a, b;
   write_certificate(a, first.certificate);
   write_certificate(b, second.certificate);
