@@ -267,6 +267,19 @@ TEST(Collapse, of_a_pyramid_costs_its_height)
   EXPECT_EQ(stage.bound(0.5).check(disc), Verdict::deviation); // for the reserve
 }
 
+TEST(Collapse, costs_in_proportion_at_any_size)
+{
+  for (const double size : {1e-130, 1e-70, 1e70, 1e130}) {
+    const Stage stage(scaled(pyramid({0.125, 0.25, 0.5}, hexagon()), size));
+    Accumulated_bound policy = stage.bound(0.6 * size);
+    const Disc disc = stage.collapse_onto(3);
+    ASSERT_EQ(policy.check(disc), Verdict::accept) << size;
+    policy.commit(disc);
+    const auto bounds = policy.face_bounds();
+    expect_close_above(*std::max_element(bounds.begin(), bounds.end()), 0.5 * size);
+  }
+}
+
 TEST(Collapse, adds_to_the_bounds_of_the_faces_it_overlays)
 {
   const Stage stage(pyramid({0.125, 0.25, 0.5}, hexagon()));

@@ -151,14 +151,15 @@ inline bool Accumulated_bound::part_is_within_limit(const Part& part)
 }
 
 /// The normals to project along: the vector area of the ring, which is that of the old faces as
-/// well as that of the new ones; the mean of the new faces' normals; each of these.
+/// well as that of the new ones; the mean of the new faces' normals; each of these. Areas are
+/// squares, which the stable norm does not square again: sizes from 1e-150 to 1e150 will do.
 inline Vector Accumulated_bound::direction(const Part& part, Index candidate) const
 {
-  if (candidate >= 2) return unit(area_vector(part.first_new() + candidate - 2));
+  if (candidate >= 2) return area_vector(part.first_new() + candidate - 2).stableNormalized();
   Vector sum = Vector::Zero();
   for (Index j = part.first_new(); j <= part.last_new(); ++j)
     sum += candidate == 0 ? area_vector(j) : unit(area_vector(j));
-  return unit(sum);
+  return sum.stableNormalized();
 }
 
 /// Projects a part along `normal`, or, beside a ridge, perpendicularly to QR and as much along
