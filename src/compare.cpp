@@ -58,7 +58,7 @@ Exit_status Compare::run() const
   Output_files files({first, second});
   if (!report.empty()) files.announce(report);
   Stopwatch watch;
-  const Mesh a = read_mesh(first, reading), b = read_mesh(second, reading);
+  const Mesh a = read_triangles(first, reading), b = read_triangles(second, reading);
   watch.lap("read");
 
   Json json = new_report("compare");

@@ -20,6 +20,11 @@ struct Reading {
 /// offending element and the remedy.
 Mesh read_mesh(const std::string& file, const Reading& options);
 
+/// The triangles of a file as a mesh that serves to measure distances: if they are no manifold
+/// surface, or not orientable, or degenerate, they do not hang together, which changes no distance.
+/// \throws Bad_file if the file cannot be read or holds no triangles.
+Mesh read_triangles(const std::string& file, const Reading& options);
+
 } // namespace surety::tool
 
 #endif // SURETY_TOOL_MESH_READING_H

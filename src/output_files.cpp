@@ -22,12 +22,18 @@ namespace fs = std::filesystem;
   throw Failure(usage, file + ": " + problem);
 }
 
-/// The file behind a name, through all symbolic links, so that a link stays a link.
+/// The file behind a name, through all symbolic links, even one that leads to no file yet, so that
+/// a link stays a link.
 fs::path target_of(const std::string& file)
 {
+  constexpr int longest_chain = 40; // as in the kernel
   std::error_code error;
-  fs::path path = fs::weakly_canonical(file, error);
-  return error ? fs::absolute(file) : path;
+  fs::path path = fs::absolute(file);
+  for (int i = 0; i < longest_chain && fs::is_symlink(path, error); ++i) {
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
+  const fs::path canonical = fs::weakly_canonical(path, error);
+  return error ? path : canonical;
 }
 
 bool is_same_file(const std::string& a, const std::string& b)

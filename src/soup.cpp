@@ -93,14 +93,20 @@ void require_valid_indices(const Soup& soup, const std::string& file, bool admit
           file, face + " has " + std::to_string(polygon.size()) + " corners, not three",
           "use --triangulate to split such faces");
     }
-    auto sorted = polygon;
+  }
+}
+
+void require_no_vertex_twice(const Soup& soup, const std::string& file)
+{
+  for (std::size_t i = 0; i < soup.polygons.size(); ++i) {
+    auto sorted = soup.polygons[i];
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-    if (twice != sorted.end()) {
-      throw Bad_file(
-          file, face + " is degenerate: it has " + describe_vertex(soup, *twice) + " twice",
-          "remove it");
-    }
+    if (twice == sorted.end()) continue;
+    throw Bad_file(
+        file,
+        describe_face(i) + " is degenerate: it has " + describe_vertex(soup, *twice) + " twice",
+        "remove it");
   }
 }
 
@@ -264,11 +270,16 @@ void orient(Soup& soup, const std::string& file)
       "cut it open there, so that it has two sides");
 }
 
-void require_manifold(const Soup& soup, const std::string& file, bool admit_polygons)
+void require_polygons(const Soup& soup, const std::string& file, bool admit_polygons)
 {
   require_faces(soup, file);
   require_valid_indices(soup, file, admit_polygons);
   require_finite(soup, file);
+}
+
+void require_manifold(const Soup& soup, const std::string& file)
+{
+  require_no_vertex_twice(soup, file);
   require_no_isolated_vertex(soup, file);
   const auto sides = sorted_sides(soup);
   require_no_face_twice(soup, sides, file);

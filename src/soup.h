@@ -29,10 +29,13 @@ void stitch_if_unconnected(Soup& soup);
 /// \throws Bad_file if the surface has one side only.
 void orient(Soup& soup, const std::string& file);
 
-/// \throws Bad_file unless the soup is a manifold surface: indices that exist, finite
-/// coordinates, no isolated vertex, no polygon twice, at most two polygons an edge, one fan a
-/// vertex; and triangles only, unless polygons are admitted.
-void require_manifold(const Soup& soup, const std::string& file, bool admit_polygons);
+/// \throws Bad_file unless all polygons are triangles, or polygons are admitted, with vertices that
+/// exist and have finite coordinates.
+void require_polygons(const Soup& soup, const std::string& file, bool admit_polygons);
+
+/// \throws Bad_file unless the soup, of sound polygons, is a manifold surface: no isolated vertex,
+/// no polygon twice, at most two polygons an edge, one fan a vertex.
+void require_manifold(const Soup& soup, const std::string& file);
 
 } // namespace surety::tool
 

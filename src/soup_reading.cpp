@@ -147,7 +147,8 @@ std::optional<Promise> ply_promise(std::string_view text)
 
 /// A vertex takes at least three numbers and as many blanks in text, and as many bytes in binary;
 /// a face takes more.
-void require_plausible(const Promise& promise, const std::string& file, std::size_t size)
+void require_plausible(
+    const Promise& promise, const std::string& file, std::size_t size, const char* format)
 {
   constexpr std::uint64_t bytes_per_element = 6;
   if (promise.vertices <= size / bytes_per_element && promise.faces <= size / bytes_per_element) {
@@ -155,9 +156,9 @@ void require_plausible(const Promise& promise, const std::string& file, std::siz
   }
   throw Bad_file(
       file,
-      "the header promises " + std::to_string(promise.vertices) + " vertices and "
-          + std::to_string(promise.faces) + " faces, more than the " + std::to_string(size)
-          + " bytes of the file can hold",
+      std::string("this is not a complete ") + format + " file: the header promises "
+          + std::to_string(promise.vertices) + " vertices and " + std::to_string(promise.faces)
+          + " faces, more than the " + std::to_string(size) + " bytes of the file can hold",
       "export the file again");
 }
 
@@ -190,7 +191,7 @@ std::optional<std::string> find_infinite_number(const std::string& text)
 Soup read_off(const std::string& file, const std::string& text)
 {
   const auto promise = off_promise(text);
-  if (promise) require_plausible(*promise, file, text.size());
+  if (promise) require_plausible(*promise, file, text.size(), "OFF");
   Soup soup;
   Memory_stream stream(text.data(), text.size());
   if (!CGAL::IO::read_OFF(stream, soup.points, soup.polygons, CGAL::parameters::verbose(false))) {
@@ -202,7 +203,7 @@ Soup read_off(const std::string& file, const std::string& text)
 Soup read_ply(const std::string& file, const std::string& text)
 {
   const auto promise = ply_promise(text);
-  if (promise) require_plausible(*promise, file, text.size());
+  if (promise) require_plausible(*promise, file, text.size(), "PLY");
   Soup soup;
   Memory_stream stream(text.data(), text.size());
   const bool complete

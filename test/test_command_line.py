@@ -321,12 +321,11 @@ class Controls(Case):
         return [p for p in points if abs(p[0] - 0.5) < 1e-12]
 
     def test_feature_angle_keeps_ridges(self):
-        self.faces(folded(), "-t", "3%", "--feature-angle", "40")
+        kept = self.faces(folded(), "-t", "15%", "--feature-angle", "40")
         ends = {p[1] for p in self.ridge_points()}
         self.assertLessEqual({0.0, 1.0}, ends, "the ends of the ridge are gone")
-        with_ridges = self.faces(folded(), "-t", "0.05%", "--feature-angle", "10")
-        without = self.faces(folded(), "-t", "0.05%", "--feature-angle", "180")
-        self.assertNotEqual(with_ridges, without)
+        flattened = self.faces(folded(), "-t", "15%", "--feature-angle", "180")
+        self.assertLess(flattened, kept)
 
     def test_corner_angle_keeps_corners(self):
         circle = torus(48, 4)  # four ridges, each a polygon that turns by 7.5 degrees a vertex
@@ -669,7 +668,7 @@ class Hostile_parameters(Case):
 
     def test_missing_and_unknown_arguments(self):
         self.refuse(USAGE, "subcommand")
-        self.refuse(USAGE, "nonsense", "nonsense")
+        self.refuse(USAGE, "subcommand", "nonsense")
         self.refuse(USAGE, "IN", "simplify")
         self.refuse(USAGE, "output", "simplify", "in.off", "-t", "1%")
         self.refuse(USAGE, "tolerance", "simplify", "in.off", "-o", "out.off")
@@ -814,6 +813,20 @@ class Compare(Case):
         self.assertAlmostEqual(report["distance"]["B_to_A"]["upper"], 1, delta=1e-3)
         self.assertEqual(report["distance"]["B_to_A"]["witness"]["mesh"], "B")
         self.assertLess(report["distance"]["A_to_B"]["upper"], 0.2)
+
+    def test_takes_triangles_that_are_no_mesh(self):
+        # What other programs write need not be a manifold; its distance is defined all the same.
+        points, faces = torus()
+        for name, extra in {"twice": [faces[0]], "degenerate": [(0, 1, 1)],
+                            "fins": [(0, 1, 5), (0, 1, 7)]}.items():
+            with self.subTest(name):
+                self.write("c.off", off_text((points, faces + extra)))
+                report = self.report("compare", "a.off", "c.off", "-t", "50%")
+                self.assertTrue(report["certificate"]["holds"])
+        self.write("c.off", off_text((points, [(0, 1, 99999)])))
+        self.refuse(BAD_INPUT, "not a complete|not exist", "compare", "a.off", "c.off")
+        self.write("d.off", off_text(cube()))
+        self.refuse(BAD_INPUT, "--triangulate", "compare", "a.off", "d.off")
 
     def test_tolerance_is_proven_or_refuted(self):
         proven = self.succeed("compare", "a.off", "b.off", "-t", "0.26")
