@@ -587,7 +587,8 @@ TEST(Visitor_parameter, is_told_the_progress)
     faces = calls[i].faces;
     stages.insert(calls[i].stage);
     // A stage that starts anew, starts at zero.
-    const bool goes_on = calls[i].fraction > 0 && std::string(calls[i].stage) == calls[i - 1].stage;
+    const bool goes_on
+        = i > 0 && calls[i].fraction > 0 && std::string(calls[i].stage) == calls[i - 1].stage;
     EXPECT_TRUE(!goes_on || calls[i].fraction > calls[i - 1].fraction - 0.1)
         << calls[i].stage << ": " << calls[i - 1].fraction << ", then " << calls[i].fraction;
   }
