@@ -130,7 +130,7 @@ void write_vtp(std::ostream& stream, const Mesh& mesh, const Deviation& deviatio
          << "NumberOfStrips=\"0\" NumberOfPolys=\"" << mesh.number_of_faces() << "\">\n<Points>\n";
   write_array<double>(stream, "Float64", "Points", 3, coordinates);
   stream << "</Points>\n<Polys>\n";
-  write_array<std::size_t>(stream, "Int64", "connectivity", 3, connectivity);
+  write_array<std::size_t>(stream, "Int64", "connectivity", 1, connectivity);
   write_array<std::size_t>(stream, "Int64", "offsets", 1, offsets);
   stream << "</Polys>\n<CellData Scalars=\"deviation\">\n";
   write_array<double>(stream, "Float64", "deviation", 1, bounds(mesh, deviation));

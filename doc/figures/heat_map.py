@@ -12,8 +12,7 @@ import sys
 
 import vtk
 
-SIZE = (2100, 760)
-TOP = 0.94  # of the picture; titles are above
+SIZE = (2100, 840)
 
 
 def read_off(path):
@@ -95,7 +94,7 @@ def scale(colors):
     bar.SetNumberOfLabels(3)
     bar.SetLabelFormat("%.3g")
     bar.SetOrientationToHorizontal()
-    bar.SetPosition(0.2, 0.02)
+    bar.SetPosition(0.2, 0.015)
     bar.SetWidth(0.6)
     bar.SetHeight(0.07)
     bar.UnconstrainedFontSizeOn()
@@ -134,7 +133,8 @@ def main(original_path, simplified_path, report_path, picture_path):
         camera.SetPosition(0, 0.15, 1)
         camera.SetViewUp(0, 1, 0)
         renderer.ResetCamera()
-        camera.Zoom(1.35)
+        camera.Zoom(1.2)
+        camera.SetWindowCenter(0, -0.06)  # room for the scale below
         window.AddRenderer(renderer)
     window.Render()
 
