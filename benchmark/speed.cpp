@@ -36,12 +36,12 @@ struct Method {
 
 void report_method(
     const Method& method, const std::string& prefix, const Mesh& input, double tolerance,
-    const Report& parent)
+    const Report& report)
 {
-  parent.set(prefix + "seconds", median(method.seconds));
-  parent.set(prefix + "faces", method.result.number_of_faces());
-  const auto distance = surety::hausdorff_distance(input, method.result, tolerance / 100);
-  parent.set(prefix + "distance_over_tolerance", distance.upper() / tolerance);
+  report.set(prefix + "seconds", median(method.seconds));
+  report.set(prefix + "faces", method.result.number_of_faces());
+  const Distance distance = measure_distance(input, method.result, tolerance);
+  report.set(prefix + "distance_over_tolerance", distance.upper / tolerance);
 }
 
 void run_case(const Mesh& input, double per_cent, const Settings& settings, const Report& report)
