@@ -184,17 +184,18 @@ Certificate make_geometric_mesh(
     Mesh& mesh, double tolerance, const NamedParameters& np = CGAL::parameters::default_values())
 {
   const char* const function = "make_geometric_mesh";
-  internal::require_valid_mesh(mesh, function, "mesh");
+  internal::require_valid_mesh(mesh, function, "mesh", np);
   internal::require_in_range(
       tolerance, internal::smallest_tolerance, std::numeric_limits<double>::max(), function,
       "tolerance");
   const auto controls = internal::simplification_controls(np, function);
   const Features features = find_features(mesh, np);
 
-  const internal::Elements<Mesh> elements(mesh);
+  const auto points = internal::vertex_points(mesh, np);
+  const internal::Elements<Mesh> elements(mesh, points);
   auto connectivity = internal::read_connectivity(mesh, elements);
   const internal::Reference reference
-      = internal::make_reference(elements, internal::vertex_points(mesh, np), connectivity);
+      = internal::make_reference(elements, points, connectivity);
   internal::Working_mesh working
       = internal::make_working_mesh(elements, features, std::move(connectivity));
 
@@ -214,13 +215,14 @@ Certificate make_geometric_mesh(
   const bool is_complete = simplifier.run();
 
   const std::vector<double> bounds = deviation->face_bounds();
+  const std::vector<bool> is_feature = internal::features_in_order(elements, features);
   internal::write_connectivity(working, elements, mesh);
   const internal::Compaction compaction = internal::compact(elements, mesh);
   internal::write_deviation(bounds, compaction, np, mesh);
   std::optional<Correspondence> record;
   if (map != nullptr)
-    record = internal::Recorder(reference, working, *map, compaction)
-                 .record(internal::features_in_order(elements, features));
+    record = internal::Recorder(reference, working, *map, elements.input_position, compaction)
+                 .record(is_feature);
   const double bound = bounds.empty() ? 0 : *std::max_element(bounds.begin(), bounds.end());
   return Certificate(tolerance, bound, std::move(record), simplifier.operations(), !is_complete);
 }

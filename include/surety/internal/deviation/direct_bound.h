@@ -54,6 +54,7 @@ public:
   }
 
   void commit(const Disc& disc) override;
+  Forecast forecast(const Disc& disc) const override;
   std::vector<double> face_bounds() const override;
   const Map& map() const { return map_; }
 
@@ -82,7 +83,8 @@ private:
   bool move_vertices();
   bool move_to_faces(Index v, Index low, Index high);
   bool move_to_ridge(Index v);
-  double nearest_face(Index v, Index low, Index high, Index& face) const;
+  double nearest_face(const Disc& disc, const Vector& p, Index low, Index high,
+                      Index& face) const;
   std::array<Index, 2> side_of_old_face(Index i) const;
 
   // Step 2: the T edges that meet the disc, and their new crossings.

@@ -47,14 +47,14 @@ inline std::array<Index, 2> Direct_bound::side_of_old_face(Index i) const
   return {disc_->ridge, disc_->last};
 }
 
-inline double Direct_bound::nearest_face(Index v, Index low, Index high, Index& face) const
+inline double Direct_bound::nearest_face(const Disc& disc, const Vector& p, Index low,
+                                         Index high, Index& face) const
 {
-  const Vector& p = reference_.point(v);
-  const Vector& apex = point(disc_->apex());
+  const Vector& apex = point(disc.apex());
   double best = std::numeric_limits<double>::infinity();
-  Vector ab = point(disc_->ring[low]) - apex;
+  Vector ab = point(disc.ring[low]) - apex;
   for (Index i = low; i <= high; ++i) {
-    const Vector ac = point(disc_->ring[i + 1]) - apex;
+    const Vector ac = point(disc.ring[i + 1]) - apex;
     const double squared = squared_distance_to_triangle(p, apex, ab, ac);
     if (squared < best) best = squared, face = i;
     ab = ac;
@@ -71,13 +71,13 @@ inline bool Direct_bound::is_blocked() const
   if (i == none) return false;
   const auto [low, high] = side_of_old_face(i);
   Index face = none;
-  return !(nearest_face(v, low, high, face) <= squared_limit_);
+  return !(nearest_face(*disc_, reference_.point(v), low, high, face) <= squared_limit_);
 }
 
 inline bool Direct_bound::move_to_faces(Index v, Index low, Index high)
 {
   Index face = none;
-  if (!(nearest_face(v, low, high, face) <= squared_limit_)) {
+  if (!(nearest_face(*disc_, reference_.point(v), low, high, face) <= squared_limit_)) {
     if (disc_->removed != none) blocker_[disc_->removed] = v;
     return false;
   }
@@ -390,6 +390,37 @@ inline void Direct_bound::commit(const Disc& disc)
     if (last == none) map_.set_first_node(routed.edge, none);
     else map_.set_next_node(last, none);
   }
+}
+
+/// Looks at the T vertices on the disc and at the nodes on its old spokes.
+inline Deviation_policy::Forecast Direct_bound::forecast(const Disc& disc) const
+{
+  Forecast result;
+  Index face = none;
+  for (const Index f : disc.old_face) {
+    if (mesh_.is_ghost_face(f)) continue;
+    const auto corner = mesh_.vertices_of(f);
+    const Vector& a = point(corner[0]);
+    const Vector ab = point(corner[1]) - a, ac = point(corner[2]) - a;
+    map_.for_each_vertex_on_face(f, [&](Index v) {
+      const Vector& p = reference_.point(v);
+      result.before = std::max(result.before, squared_distance_to_triangle(p, a, ab, ac));
+      result.after = std::max(result.after, nearest_face(disc, p, disc.first, disc.last, face));
+    });
+  }
+  for (const Index spoke : disc.old_spoke) {
+    const Index h = mesh_.halfedge(spoke);
+    const Vector& a = point(mesh_.source(h));
+    const Vector along = point(mesh_.target(h)) - a;
+    map_.for_each_node_on_m(spoke, [&](Index n) {
+      const auto [s, t] = reference_.vertices_of_edge(map_.node(n).t_edge);
+      const Vector& x = reference_.point(s);
+      const Vector p = x + map_.node(n).lambda * (reference_.point(t) - x);
+      result.before = std::max(result.before, squared_distance_to_segment(p, a, along));
+      result.after = std::max(result.after, nearest_face(disc, p, disc.first, disc.last, face));
+    });
+  }
+  return result;
 }
 
 inline std::vector<double> Direct_bound::face_bounds() const

@@ -19,6 +19,17 @@ public:
   virtual Verdict check(const Disc& disc) = 0;
   virtual void commit(const Disc& disc) = 0;
 
+  /// Squared distances before and after an operation, as far as they can be foretold without
+  /// checking it: a hint for choosing operations, and no bound.
+  struct Forecast {
+    double before = 0, after = 0;
+  };
+  virtual Forecast forecast(const Disc& disc) const
+  {
+    static_cast<void>(disc);
+    return {};
+  }
+
   /// b(K), an upper bound of the two-sided distance at face K; see section 2.1 of the paper.
   virtual std::vector<double> face_bounds() const = 0;
 };

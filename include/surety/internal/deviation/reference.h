@@ -15,16 +15,19 @@ namespace surety::internal {
 class Reference
 {
 public:
-  /// Half-edges 2e and 2e + 1 are edge e; a border half-edge has face `none`.
+  /// Half-edges 2e and 2e + 1 are edge e; a border half-edge has face `none`. `input_position` is
+  /// the order of the vertices in the user's mesh, which directs the edges.
   Reference(std::vector<Vector> points, const std::vector<Index>& next,
-            const std::vector<Index>& target, const std::vector<Index>& face, Index faces)
+            const std::vector<Index>& target, const std::vector<Index>& face, Index faces,
+            const std::vector<Index>& input_position)
     : points_(std::move(points)), face_edges_(faces), edge_vertices_(next.size() / 2),
       edge_faces_(next.size() / 2), first_edge_(points_.size() + 1, 0),
       incident_edges_(next.size())
   {
     for (Index e = 0; e < number_of_edges(); ++e) {
-      edge_vertices_[e] = {std::min(target[2 * e], target[2 * e + 1]),
-                           std::max(target[2 * e], target[2 * e + 1])};
+      const Index a = target[2 * e + 1], b = target[2 * e];
+      edge_vertices_[e] = input_position[a] < input_position[b] ? std::array<Index, 2>{a, b}
+                                                                : std::array<Index, 2>{b, a};
       edge_faces_[e] = {face[2 * e], face[2 * e + 1]};
     }
     for (Index h = 0; h < next.size(); ++h)
@@ -40,7 +43,7 @@ public:
   double largest_coordinate() const { return largest_coordinate_; }
 
   const Vector& point(Index v) const { return points_[v]; }
-  /// The ends of an edge, the smaller index first: edges run that way.
+  /// The ends of an edge, which runs from the one that comes first in the user's mesh.
   const std::array<Index, 2>& vertices_of_edge(Index e) const { return edge_vertices_[e]; }
   /// The faces on both sides of an edge, `none` beyond the border.
   const std::array<Index, 2>& faces_of_edge(Index e) const { return edge_faces_[e]; }

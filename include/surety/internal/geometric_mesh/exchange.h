@@ -7,28 +7,38 @@
 
 #include <surety/features.h>
 #include <surety/internal/deviation/reference.h>
+#include <surety/internal/geometric_mesh/space_filling_order.h>
 #include <surety/internal/working_mesh.h>
 
 #include <vector>
 
 namespace surety::internal {
 
-/// The elements of a mesh in iteration order, and the way back from their raw index to it.
+/// The elements of a mesh in the order that the flat structures keep them: along a space-filling
+/// curve, so that what is near in space is near in memory.
 template <class Mesh>
 struct Elements {
   using Vertex = typename Mesh::Vertex_index;
   using Edge = typename Mesh::Edge_index;
   using Face = typename Mesh::Face_index;
 
-  explicit Elements(const Mesh& mesh)
-    : vertices(mesh.vertices().begin(), mesh.vertices().end()),
-      edges(mesh.edges().begin(), mesh.edges().end()),
-      faces(mesh.faces().begin(), mesh.faces().end()), vertex_position(mesh.num_vertices(), none),
-      edge_position(mesh.num_edges(), none), face_position(mesh.num_faces(), none)
+  template <class Points>
+  Elements(const Mesh& mesh, const Points& points)
   {
-    for (Index i = 0; i < vertices.size(); ++i) vertex_position[vertices[i]] = i;
-    for (Index i = 0; i < edges.size(); ++i) edge_position[edges[i]] = i;
-    for (Index i = 0; i < faces.size(); ++i) face_position[faces[i]] = i;
+    std::vector<Vertex> in_order(mesh.vertices().begin(), mesh.vertices().end());
+    std::vector<Vector> coordinates;
+    coordinates.reserve(in_order.size());
+    for (const Vertex v : in_order) coordinates.push_back(to_vector(get(points, v)));
+    input_position = space_filling_order(coordinates);
+
+    vertices.reserve(in_order.size());
+    edges.reserve(mesh.number_of_edges());
+    faces.reserve(mesh.number_of_faces());
+    std::vector<bool> has_edge(mesh.num_edges()), has_face(mesh.num_faces());
+    for (const Index position : input_position) {
+      vertices.push_back(in_order[position]);
+      append_elements_at(mesh, vertices.back(), has_edge, has_face);
+    }
   }
 
   typename Mesh::Halfedge_index halfedge(const Mesh& mesh, Index h) const
@@ -36,33 +46,51 @@ struct Elements {
     const auto first = mesh.halfedge(edges[h / 2]);
     return h % 2 == 0 ? first : mesh.opposite(first);
   }
-  Index position(const Mesh& mesh, typename Mesh::Halfedge_index h) const
-  {
-    // An edge descriptor remembers which half-edge it was made from: ask the index instead.
-    return 2 * edge_position[mesh.edge(h)] + static_cast<Index>(h) % 2;
-  }
 
   std::vector<Vertex> vertices;
-  std::vector<Edge> edges;
+  std::vector<Edge> edges; ///< each with its even half-edge, which becomes half-edge 2e
   std::vector<Face> faces;
-  std::vector<Index> vertex_position, edge_position, face_position;
+  std::vector<Index> input_position; ///< of each vertex, in the iteration order of the mesh
+
+private:
+  // Edges and faces follow the first of their vertices.
+  void append_elements_at(const Mesh& mesh, Vertex v, std::vector<bool>& has_edge,
+                          std::vector<bool>& has_face)
+  {
+    for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v))) {
+      const Edge e(typename Mesh::Halfedge_index(static_cast<Index>(h) & ~1u));
+      if (!has_edge[e]) edges.push_back(e);
+      has_edge[e] = true;
+      if (mesh.is_border(h)) continue;
+      const Face f = mesh.face(h);
+      if (!has_face[f]) faces.push_back(f);
+      has_face[f] = true;
+    }
+  }
 };
 
 template <class Mesh>
 Working_mesh::Connectivity read_connectivity(const Mesh& mesh, const Elements<Mesh>& elements)
 {
+  std::vector<Index> vertex(mesh.num_vertices()), edge(mesh.num_edges()), face(mesh.num_faces());
+  for (Index i = 0; i < elements.vertices.size(); ++i) vertex[elements.vertices[i]] = i;
+  for (Index i = 0; i < elements.edges.size(); ++i) edge[elements.edges[i]] = i;
+  for (Index i = 0; i < elements.faces.size(); ++i) face[elements.faces[i]] = i;
+
   Working_mesh::Connectivity result;
   result.vertices = static_cast<Index>(elements.vertices.size());
   result.faces = static_cast<Index>(elements.faces.size());
   const auto halfedges = static_cast<Index>(2 * elements.edges.size());
-  result.next.resize(halfedges);
-  result.target.resize(halfedges);
-  result.face.resize(halfedges);
+  // Ghosts come on top: one edge a border edge.
+  std::size_t borders = 0;
+  for (Index i = 0; i < halfedges; ++i) borders += mesh.is_border(elements.halfedge(mesh, i));
+  for (auto* array : {&result.next, &result.target, &result.face})
+    array->reserve(halfedges + 2 * borders);
   for (Index i = 0; i < halfedges; ++i) {
-    const auto h = elements.halfedge(mesh, i);
-    result.next[i] = elements.position(mesh, mesh.next(h));
-    result.target[i] = elements.vertex_position[mesh.target(h)];
-    result.face[i] = mesh.is_border(h) ? none : elements.face_position[mesh.face(h)];
+    const auto h = elements.halfedge(mesh, i), next = mesh.next(h);
+    result.next.push_back(2 * edge[mesh.edge(next)] + static_cast<Index>(next) % 2);
+    result.target.push_back(vertex[mesh.target(h)]);
+    result.face.push_back(mesh.is_border(h) ? none : face[mesh.face(h)]);
   }
   return result;
 }
@@ -75,7 +103,7 @@ Reference make_reference(const Elements<Mesh>& elements, const Points& points,
   coordinates.reserve(elements.vertices.size());
   for (const auto v : elements.vertices) coordinates.push_back(to_vector(get(points, v)));
   return Reference(std::move(coordinates), connectivity.next, connectivity.target,
-                   connectivity.face, connectivity.faces);
+                   connectivity.face, connectivity.faces, elements.input_position);
 }
 
 /// The feature edges by position.
@@ -123,12 +151,18 @@ void write_connectivity(const Working_mesh& result, const Elements<Mesh>& elemen
     });
     mesh.set_halfedge(elements.vertices[v], elements.halfedge(mesh, incoming));
   }
-  for (Index f = 0; f < elements.faces.size(); ++f) {
-    if (!result.is_live_face(f)) mesh.remove_face(elements.faces[f]);
-    else mesh.set_halfedge(elements.faces[f], elements.halfedge(mesh, result.halfedge_in(f)));
-  }
   for (Index e = 0; e < elements.edges.size(); ++e)
     if (!result.is_live_edge(e)) mesh.remove_edge(elements.edges[e]);
+  for (Index f = 0; f < elements.faces.size(); ++f) {
+    if (!result.is_live_face(f)) {
+      mesh.remove_face(elements.faces[f]);
+      continue;
+    }
+    // A face that keeps its first half-edge is written as it was read.
+    const auto first = mesh.halfedge(elements.faces[f]);
+    if (mesh.is_removed(mesh.edge(first)) || mesh.face(first) != elements.faces[f])
+      mesh.set_halfedge(elements.faces[f], elements.halfedge(mesh, result.halfedge_in(f)));
+  }
 }
 
 /// Removes the garbage of a mesh, and tells where the elements went: position before (as in

@@ -18,18 +18,20 @@ namespace surety::internal {
 class Recorder
 {
 public:
+  /// `input_position` tells where each vertex of T stands in the user's mesh.
   Recorder(const Reference& reference, const Working_mesh& mesh, const Map& map,
-           const Compaction& compaction)
-    : reference_(reference), mesh_(mesh), map_(map), compaction_(compaction)
+           const std::vector<Index>& input_position, const Compaction& compaction)
+    : reference_(reference), mesh_(mesh), map_(map), input_position_(input_position),
+      compaction_(compaction)
   {}
 
   /// `is_ridge` tells the edges of T whose curve is certified; borders go without saying.
   Correspondence record(const std::vector<bool>& is_ridge) const
   {
     Correspondence result;
-    result.images.reserve(reference_.number_of_vertices());
+    result.images.resize(reference_.number_of_vertices());
     for (Index v = 0; v < reference_.number_of_vertices(); ++v)
-      result.images.push_back(image_of(map_.image(v)));
+      result.images[input_position_[v]] = image_of(map_.image(v));
 
     std::vector<Index> order;
     for (Index e = 0; e < reference_.number_of_edges(); ++e) {
@@ -51,7 +53,11 @@ public:
   }
 
 private:
-  std::array<Index, 2> ends_of(Index t_edge) const { return reference_.vertices_of_edge(t_edge); }
+  std::array<Index, 2> ends_of(Index t_edge) const
+  {
+    const auto [s, t] = reference_.vertices_of_edge(t_edge);
+    return {input_position_[s], input_position_[t]};
+  }
   std::array<Index, 2> ends_in_output(Index m_edge) const
   {
     const Index h = mesh_.halfedge(m_edge);
@@ -79,6 +85,7 @@ private:
   const Reference& reference_;
   const Working_mesh& mesh_;
   const Map& map_;
+  const std::vector<Index>& input_position_;
   const Compaction& compaction_;
 };
 

@@ -10,12 +10,12 @@
 #include <surety/internal/geometric_mesh/quadric.h>
 #include <surety/internal/geometric_mesh/roughness.h>
 #include <surety/internal/geometric_mesh/shape.h>
+#include <surety/internal/geometric_mesh/vertex_queue.h>
 #include <surety/internal/operators/topology.h>
 #include <surety/parameters.h>
 
 #include <functional>
 #include <optional>
-#include <queue>
 #include <vector>
 
 namespace surety::internal {
@@ -37,7 +37,8 @@ public:
     : reference_(reference), mesh_(mesh), deviation_(deviation), controls_(controls),
       shape_(controls.shape_ratio, controls.shape_floor),
       roughness_(reference, controls.roughness_cosine), report_(std::move(report)),
-      quadric_(reference.number_of_vertices()), version_(reference.number_of_vertices(), 0),
+      queue_(reference.number_of_vertices()), quadric_(reference.number_of_vertices()),
+      best_(reference.number_of_vertices(), none),
       refused_(2 * std::size_t(reference.number_of_edges()), false)
   {
     if (!controls.allow_self_intersections) guard_.emplace(reference, mesh);
@@ -61,16 +62,6 @@ public:
   const Operations& operations() const { return operations_; }
 
 private:
-  struct Candidate {
-    double cost;
-    Index vertex, version;
-
-    bool operator<(const Candidate& other) const // the cheapest first out of a max-heap
-    {
-      return cost != other.cost ? cost > other.cost : vertex > other.vertex;
-    }
-  };
-
   const Vector& point(Index v) const { return reference_.point(v); }
   auto points() const
   {
@@ -79,7 +70,7 @@ private:
 
   void initialise_quadrics();
   void schedule(Index p);
-  Index best_target(Index p, double& cost) const;
+  double cost(Index p, Index q) const;
   bool collapse_all();
   void try_collapse(Index p);
   Verdict check_collapse(Index h);
@@ -103,80 +94,78 @@ private:
   Report_progress report_;
   Operations operations_;
 
-  std::priority_queue<Candidate> queue_;
+  Vertex_queue queue_;
   std::vector<Quadric> quadric_; ///< relative to the first point
-  std::vector<Index> version_;
-  std::vector<bool> refused_; ///< a half-edge refused since its source's star last changed
+  std::vector<Index> best_;      ///< the cheapest half-edge out of a queued vertex
+  std::vector<bool> refused_;    ///< a half-edge refused since its source's star last changed
   Disc disc_;
 };
 
+// Planes count alike whatever the size of their face: where T is fine it is fine for a reason.
 inline void Simplifier::initialise_quadrics()
 {
   const Vector origin = point(0);
   for (Index f = 0; f < reference_.number_of_faces(); ++f) {
     const auto v = reference_.vertices_of_face(f);
-    const Vector normal = (point(v[1]) - point(v[0])).cross(point(v[2]) - point(v[0]));
-    const Quadric q = Quadric::of_plane(point(v[0]) - origin, unit(normal), normal.norm());
+    const Quadric q
+        = Quadric::of_plane(point(v[0]) - origin, reference_.normal_of_face(f), 1);
     for (const Index corner : v) quadric_[corner] += q;
   }
   // Feature edges resist by a plane through them, perpendicular to their face.
   for (Index e = 0; e < reference_.number_of_edges(); ++e) {
     if (!mesh_.is_feature(e)) continue;
     const auto [s, t] = reference_.vertices_of_edge(e);
-    const Vector along = point(t) - point(s);
     for (const Index f : reference_.faces_of_edge(e)) {
       if (f == none) continue;
-      const Vector side = unit(along.cross(reference_.normal_of_face(f)));
-      const Quadric q = Quadric::of_plane(point(s) - origin, side, along.squaredNorm());
+      const Vector side = unit((point(t) - point(s)).cross(reference_.normal_of_face(f)));
+      const Quadric q = Quadric::of_plane(point(s) - origin, side, 1);
       quadric_[s] += q;
       quadric_[t] += q;
     }
   }
 }
 
-/// The cheapest half-edge out of p that has not been refused, or none.
-inline Index Simplifier::best_target(Index p, double& cost) const
+/// The quadric error at q of what p and q stand for, by the length of the edge: of two collapses
+/// that err alike the longer one turns the surface less. On flat ground, short edges first.
+inline double Simplifier::cost(Index p, Index q) const
 {
+  constexpr double flat_ground = 1e-4;
+  const Vector x = point(q) - point(0);
+  const double length = (point(p) - point(q)).norm();
+  return (quadric_[p](x) + quadric_[q](x)) / length + flat_ground * length;
+}
+
+/// Queues p with its cheapest half-edge that has not been refused.
+inline void Simplifier::schedule(Index p)
+{
+  if (mesh_.is_fixed(p)) return;
   Index best = none;
-  const Vector origin = point(0);
+  double least = 0;
   mesh_.for_each_outgoing(p, [&](Index h) {
     const Index q = mesh_.target(h);
     if (mesh_.is_ghost_vertex(q) || refused_[h]) return;
-    const Vector x = point(q) - origin;
-    const double c = quadric_[p](x) + quadric_[q](x);
-    if (best == none || c < cost || (c == cost && h < best)) best = h, cost = c;
+    const double c = cost(p, q);
+    if (best == none || c < least || (c == least && h < best)) best = h, least = c;
   });
-  return best;
-}
-
-inline void Simplifier::schedule(Index p)
-{
-  ++version_[p];
-  if (mesh_.is_fixed(p)) return;
-  double cost = 0;
-  if (best_target(p, cost) != none) queue_.push({cost, p, version_[p]});
+  best_[p] = best;
+  if (best == none) queue_.remove(p);
+  else queue_.set(p, least);
 }
 
 inline bool Simplifier::collapse_all()
 {
-  std::size_t tries = 0;
-  const double goal = static_cast<double>(queue_.size());
-  while (!queue_.empty()) {
-    const Candidate next = queue_.top();
-    queue_.pop();
-    if (next.version != version_[next.vertex]) continue;
-    try_collapse(next.vertex);
-    if (++tries % 1024 == 0
-        && !goes_on("collapse", 1 - std::min(1.0, static_cast<double>(queue_.size()) / goal)))
-      return false;
+  const auto goal = static_cast<double>(std::max<std::size_t>(queue_.size(), 1));
+  for (std::size_t tries = 0; !queue_.empty(); ++tries) {
+    const double left = std::min(1.0, static_cast<double>(queue_.size()) / goal);
+    if (tries % 1024 == 0 && !goes_on("collapse", 1 - left)) return false;
+    try_collapse(queue_.pop());
   }
   return true;
 }
 
 inline void Simplifier::try_collapse(Index p)
 {
-  double cost = 0;
-  const Index h = best_target(p, cost);
+  const Index h = best_[p];
   const Verdict verdict = check_collapse(h);
   if (verdict != Verdict::accept) {
     operations_.refuse(verdict);
@@ -189,7 +178,6 @@ inline void Simplifier::try_collapse(Index p)
   mesh_.collapse(h);
   if (guard_) guard_->commit(disc_);
   quadric_[q] += quadric_[p];
-  ++version_[p];
   ++operations_.collapses;
   for (const Index v : disc_.ring) retry_around(v);
 }
@@ -197,8 +185,9 @@ inline void Simplifier::try_collapse(Index p)
 inline void Simplifier::retry_around(Index v)
 {
   if (mesh_.is_fixed(v)) return;
-  mesh_.for_each_outgoing(v, [&](Index h) { 
-    if (h < refused_.size()) refused_[h] = false; });
+  mesh_.for_each_outgoing(v, [&](Index h) {
+    if (h < refused_.size()) refused_[h] = false;
+  });
   schedule(v);
 }
 
@@ -228,14 +217,19 @@ inline bool Simplifier::flip_all()
   return true;
 }
 
-/// Whether the flip makes the worse of the two faces better.
+/// Whether the flip brings M closer to T, or makes the worse of the two faces better without taking
+/// M away from T.
 inline bool Simplifier::improves(const Disc& disc) const
 {
+  constexpr double closer = 0.92, about_as_close = 1.1, rounder = 0.99;
+  const auto squared = deviation_.forecast(disc);
+  if (squared.after < closer * squared.before) return true;
+  if (squared.after > about_as_close * squared.before) return false;
   const Vector &c = point(disc.ring[0]), &a = point(disc.ring[1]), &d = point(disc.ring[2]),
                &b = point(disc.ring[3]);
   const double before = std::max(shape_quality(a, b, c), shape_quality(b, a, d));
   const double after = std::max(shape_quality(c, a, d), shape_quality(c, d, b));
-  return after < 0.99 * before;
+  return after < rounder * before;
 }
 
 inline void Simplifier::try_flip(Index e)
