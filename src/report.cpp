@@ -82,11 +82,13 @@ std::string to_text(const Mesh_statistics& s, const std::string& indentation)
   return text.str();
 }
 
-void Stopwatch::lap(const char* step)
+double Stopwatch::lap(const char* step)
 {
   const auto now = Clock::now();
-  seconds_[step] = std::chrono::duration<double>(now - start_).count();
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  seconds_[step] = seconds;
   start_ = now;
+  return seconds;
 }
 
 } // namespace surety::tool

@@ -43,8 +43,8 @@ std::string to_text(const Mesh_statistics& statistics, const std::string& indent
 class Stopwatch
 {
 public:
-  /// Ends a step, which began when the last one ended.
-  void lap(const char* step);
+  /// Ends a step, which began when the last one ended; returns its seconds.
+  double lap(const char* step);
   const Json& seconds() const { return seconds_; }
 
 private:

@@ -58,6 +58,7 @@ private:
   void simplify();
   void verify();
   void require_no_new_intersection() const;
+  [[noreturn]] static void fail_verification(const std::string& how);
   void write();
   Json report() const;
   void print() const;
@@ -147,23 +148,20 @@ void Simplify::verify()
   if (arguments_.skips_verification) return;
   if (certificate_->correspondence()) {
     verification_.certificate = check_certificate(input_, output_, *certificate_);
-    lap("verify_certificate");
+    stop_if_interrupted();
     if (!verification_.certificate->holds) {
-      throw Failure(
-          not_certified,
-          "the check of the certificate failed: " + verification_.certificate->reason
-              + "; nothing was written; please report this");
+      fail_verification("of the certificate failed: " + verification_.certificate->reason);
     }
   }
   verification_.distance = certify_distance(input_, output_, tolerance_);
-  lap("verify_distance");
-  if (!verification_.distance->holds()) {
-    throw Failure(
-        not_certified,
-        std::string("the check of the distance ")
-            + (verification_.distance->refuted() ? "failed" : "came to no decision")
-            + "; nothing was written; please report this");
-  }
+  lap("verify");
+  if (verification_.distance->refuted()) fail_verification("of the distance failed");
+  if (!verification_.distance->holds()) fail_verification("of the distance came to no decision");
+}
+
+void Simplify::fail_verification(const std::string& how)
+{
+  throw Failure(not_certified, "the check " + how + "; nothing was written; please report this");
 }
 
 void Simplify::require_no_new_intersection() const

@@ -29,6 +29,7 @@
 #include <string_view>
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace surety::tool {
 namespace {
@@ -38,32 +39,36 @@ using Memory_stream = boost::iostreams::stream<boost::iostreams::array_source>;
 
 /// While it lives, memory may grow only in proportion to the file that is read: a count in a file
 /// that promises more than the file can hold then fails as std::bad_alloc, instead of bringing the
-/// machine down.
+/// machine down. Where the memory in use cannot be told, there is no limit.
 class Memory_limit
 {
 public:
   explicit Memory_limit(std::size_t file_size)
   {
-#ifndef __SANITIZE_ADDRESS__
     constexpr rlim_t per_byte = 100, base = rlim_t{2} << 30;
-    active_ = getrlimit(RLIMIT_AS, &old_) == 0;
+    const rlim_t in_use = memory_in_use();
+    if (in_use == 0 || getrlimit(RLIMIT_AS, &old_) != 0) return;
     rlimit limit = old_;
-    limit.rlim_cur = std::min(old_.rlim_cur, base + per_byte * rlim_t{file_size});
-    active_ = active_ && setrlimit(RLIMIT_AS, &limit) == 0;
-#else
-    static_cast<void>(file_size);
-#endif
+    limit.rlim_cur = std::min(old_.rlim_cur, in_use + base + per_byte * rlim_t{file_size});
+    is_active_ = setrlimit(RLIMIT_AS, &limit) == 0;
   }
   Memory_limit(const Memory_limit&) = delete;
   Memory_limit& operator=(const Memory_limit&) = delete;
   ~Memory_limit()
   {
-    if (active_) setrlimit(RLIMIT_AS, &old_);
+    if (is_active_) setrlimit(RLIMIT_AS, &old_);
   }
 
 private:
+  static rlim_t memory_in_use()
+  {
+    rlim_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  }
+
   rlimit old_{};
-  bool active_ = false;
+  bool is_active_ = false;
 };
 
 std::string read_bytes(const std::string& file)
