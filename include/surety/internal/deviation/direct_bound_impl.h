@@ -392,10 +392,12 @@ inline void Direct_bound::commit(const Disc& disc)
   }
 }
 
-/// Looks at the T vertices on the disc and at the nodes on its old spokes.
+/// Looks at the T vertices on the disc and at the nodes on its old spokes. What lies below a
+/// sixteenth of the tolerance is all the same.
 inline Deviation_policy::Forecast Direct_bound::forecast(const Disc& disc) const
 {
-  Forecast result;
+  const double negligible = squared_limit_ / 256;
+  Forecast result{negligible, negligible};
   Index face = none;
   for (const Index f : disc.old_face) {
     if (mesh_.is_ghost_face(f)) continue;
