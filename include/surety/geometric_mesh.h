@@ -185,17 +185,16 @@ Certificate make_geometric_mesh(
 {
   const char* const function = "make_geometric_mesh";
   internal::require_valid_mesh(mesh, function, "mesh", np);
-  internal::require_in_range(
-      tolerance, internal::smallest_tolerance, std::numeric_limits<double>::max(), function,
-      "tolerance");
+  internal::require_positive(tolerance, function, "tolerance");
   const auto controls = internal::simplification_controls(np, function);
   const Features features = find_features(mesh, np);
 
   const auto points = internal::vertex_points(mesh, np);
+  const double scale = internal::normalising_scale(mesh, points);
   const internal::Elements<Mesh> elements(mesh, points);
   auto connectivity = internal::read_connectivity(mesh, elements);
   const internal::Reference reference
-      = internal::make_reference(elements, points, connectivity);
+      = internal::make_reference(elements, points, scale, connectivity);
   internal::Working_mesh working
       = internal::make_working_mesh(elements, features, std::move(connectivity));
 
@@ -203,18 +202,19 @@ Certificate make_geometric_mesh(
   const internal::Map* map = nullptr;
   if (internal::parameter_or(np, internal::deviation_bound, internal::defaults::deviation_bound)
       == Deviation_bound::direct) {
-    auto direct = std::make_unique<internal::Direct_bound>(reference, working, tolerance);
+    auto direct = std::make_unique<internal::Direct_bound>(reference, working, scale * tolerance);
     map = &direct->map();
     deviation = std::move(direct);
   } else {
-    deviation = std::make_unique<internal::Accumulated_bound>(reference, working, tolerance);
+    deviation = std::make_unique<internal::Accumulated_bound>(reference, working, scale * tolerance);
   }
 
   internal::Simplifier simplifier(
       reference, working, *deviation, controls, internal::progress_reporter(np));
   const bool is_complete = simplifier.run();
 
-  const std::vector<double> bounds = deviation->face_bounds();
+  std::vector<double> bounds = deviation->face_bounds();
+  for (double& bound : bounds) bound /= scale;
   const std::vector<bool> is_feature = internal::features_in_order(elements, features);
   internal::write_connectivity(working, elements, mesh);
   const internal::Compaction compaction = internal::compact(elements, mesh);

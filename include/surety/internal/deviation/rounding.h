@@ -19,20 +19,16 @@
 // bound of the distance of the exact x to the *element* follows, wherever on the element the
 // computed point is: a wrong choice of the nearest feature costs tightness and never soundness.
 //
-// Underflow: squares below 2^-1022 lose absolutely at most 2^-1070, which the relative reserve
-// covers for every tolerance above 1e-140 (checked by the public functions).
+// Underflow and overflow: T is scaled by a power of two so that C is about 1 (exchange.h). Squares
+// below 2^-1022 lose absolutely at most 2^-1070, which the absolute term covers many times over.
 #ifndef SURETY_INTERNAL_DEVIATION_ROUNDING_H
 #define SURETY_INTERNAL_DEVIATION_ROUNDING_H
 
-#include <algorithm>
 #include <cmath>
 
 namespace surety::internal {
 
 constexpr double unit_roundoff = 0x1p-53;
-
-/// Tolerances below it are refused: their squares could underflow.
-constexpr double smallest_tolerance = 1e-140;
 
 class Rounding
 {
@@ -47,12 +43,13 @@ public:
     return std::sqrt(squared_distance) * (1 + 0x1p-48) + absolute_;
   }
 
-  /// A squared distance computed as at most this is at most `tolerance` in truth.
+  /// A squared distance computed as at most this is at most `tolerance` in truth. Negative where
+  /// rounding alone exceeds the tolerance, so that not even a distance of zero will do.
   /// The reserve of 2^-20 keeps independent verifiers, which round too, away from ties.
   double squared_limit(double tolerance) const
   {
-    const double limit = std::max(0.0, tolerance * (1 - 0x1p-20) - 2 * absolute_);
-    return limit * limit * (1 - 0x1p-48);
+    const double limit = tolerance * (1 - 0x1p-20) - 2 * absolute_;
+    return limit > 0 ? limit * limit * (1 - 0x1p-48) : -1;
   }
 
 private:

@@ -10,6 +10,8 @@
 #include <surety/internal/geometric_mesh/space_filling_order.h>
 #include <surety/internal/working_mesh.h>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace surety::internal {
@@ -95,13 +97,27 @@ Working_mesh::Connectivity read_connectivity(const Mesh& mesh, const Elements<Me
   return result;
 }
 
+/// The power of two that brings the largest coordinate of a mesh into [1/2, 1). T and the tolerance
+/// are scaled by it: exactly, and no square over- or underflows at any size of mesh.
 template <class Mesh, class Points>
-Reference make_reference(const Elements<Mesh>& elements, const Points& points,
-                         const Working_mesh::Connectivity& connectivity)
+double normalising_scale(const Mesh& mesh, const Points& points)
+{
+  double largest = 0;
+  for (const auto v : mesh.vertices())
+    largest = std::max(largest, to_vector(get(points, v)).cwiseAbs().maxCoeff());
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return std::ldexp(1.0, -exponent);
+}
+
+template <class Mesh, class Points>
+Reference make_reference(
+    const Elements<Mesh>& elements, const Points& points, double scale,
+    const Working_mesh::Connectivity& connectivity)
 {
   std::vector<Vector> coordinates;
   coordinates.reserve(elements.vertices.size());
-  for (const auto v : elements.vertices) coordinates.push_back(to_vector(get(points, v)));
+  for (const auto v : elements.vertices) coordinates.push_back(scale * to_vector(get(points, v)));
   return Reference(std::move(coordinates), connectivity.next, connectivity.target,
                    connectivity.face, connectivity.faces, elements.input_position);
 }
