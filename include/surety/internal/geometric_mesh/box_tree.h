@@ -47,21 +47,34 @@ struct Float_box {
 class Box_tree
 {
 public:
-  /// `boxes` holds one box a face.
-  explicit Box_tree(std::vector<Float_box> boxes)
-    : box_of_face_(std::move(boxes))
+  /// Builds the tree anew over some faces; box_of(face) gives the box of each. The faces of a mesh
+  /// that has lost most of them are found faster in a new tree than among the gaps of the old one.
+  template <class Box_of>
+  void build(std::vector<Index> faces, std::size_t largest_face, const Box_of& box_of)
   {
-    while (leaves_ * leaf_size < box_of_face_.size()) leaves_ *= 2;
+    face_at_ = std::move(faces);
+    place_of_.resize(largest_face + 1);
+    boxes_.clear();
+    boxes_.reserve(face_at_.size());
+    for (const Index f : face_at_) {
+      place_of_[f] = static_cast<Index>(boxes_.size());
+      boxes_.push_back(box_of(f));
+    }
+    leaves_ = 1;
+    while (leaves_ * leaf_size < boxes_.size()) leaves_ *= 2;
     nodes_.resize(2 * leaves_);
     for (std::size_t leaf = 0; leaf < leaves_; ++leaf) nodes_[leaves_ + leaf] = box_of_leaf(leaf);
     for (std::size_t node = leaves_ - 1; node > 0; --node) nodes_[node] = box_of_children(node);
   }
 
+  /// The number of faces that the tree was built over.
+  std::size_t size() const { return face_at_.size(); }
+
   /// Gives a face a new box; the default box removes it.
   void set(Index face, const Float_box& box)
   {
-    box_of_face_[face] = box;
-    const std::size_t leaf = face / leaf_size;
+    boxes_[place_of_[face]] = box;
+    const std::size_t leaf = place_of_[face] / leaf_size;
     std::size_t node = leaves_ + leaf;
     Float_box fitted = box_of_leaf(leaf);
     while (!(nodes_[node] == fitted)) {
@@ -88,20 +101,20 @@ public:
         continue;
       }
       const std::size_t first = (node - leaves_) * leaf_size;
-      const std::size_t last = std::min(first + leaf_size, box_of_face_.size());
+      const std::size_t last = std::min(first + leaf_size, boxes_.size());
       for (std::size_t i = first; i < last; ++i)
-        if (box_of_face_[i].meets(box)) visit(static_cast<Index>(i));
+        if (boxes_[i].meets(box)) visit(face_at_[i]);
     }
   }
 
 private:
-  static constexpr std::size_t leaf_size = 8;
+  static constexpr std::size_t leaf_size = 4;
 
   Float_box box_of_leaf(std::size_t leaf) const
   {
     Float_box box;
-    const std::size_t last = std::min((leaf + 1) * leaf_size, box_of_face_.size());
-    for (std::size_t i = leaf * leaf_size; i < last; ++i) box.add(box_of_face_[i]);
+    const std::size_t last = std::min((leaf + 1) * leaf_size, boxes_.size());
+    for (std::size_t i = leaf * leaf_size; i < last; ++i) box.add(boxes_[i]);
     return box;
   }
   Float_box box_of_children(std::size_t node) const
@@ -111,8 +124,8 @@ private:
     return box;
   }
 
-  std::vector<Float_box> box_of_face_;
-  std::vector<Float_box> nodes_;
+  std::vector<Index> face_at_, place_of_;
+  std::vector<Float_box> boxes_, nodes_;
   std::size_t leaves_ = 1;
 };
 

@@ -25,8 +25,10 @@ public:
   using Corners = std::array<Index, 3>;
 
   Intersection_guard(const Reference& reference, const Working_mesh& mesh)
-    : reference_(reference), mesh_(mesh), origin_(reference.point(0)), tree_(boxes_of_faces())
-  {}
+    : reference_(reference), mesh_(mesh), origin_(reference.point(0))
+  {
+    build_tree();
+  }
 
   /// Whether no new face of the disc meets any other face.
   bool admits(const Disc& disc)
@@ -63,6 +65,7 @@ public:
     for (const Index f : disc.old_face)
       if (!mesh_.is_ghost_face(f))
         tree_.set(f, mesh_.is_live_face(f) ? box_of(mesh_.vertices_of(f)) : Float_box());
+    if (mesh_.number_of_live_faces() < tree_.size() / 2) build_tree();
   }
 
 private:
@@ -83,11 +86,14 @@ private:
       box.add((reference_.point(v) - origin_).cast<float>().array());
     return box;
   }
-  std::vector<Float_box> boxes_of_faces() const
+  void build_tree()
   {
-    std::vector<Float_box> boxes(mesh_.number_of_real_faces());
-    for (Index f = 0; f < boxes.size(); ++f) boxes[f] = box_of(mesh_.vertices_of(f));
-    return boxes;
+    std::vector<Index> live;
+    live.reserve(mesh_.number_of_live_faces());
+    for (Index f = 0; f < mesh_.number_of_real_faces(); ++f)
+      if (mesh_.is_live_face(f)) live.push_back(f);
+    tree_.build(std::move(live), mesh_.number_of_real_faces(),
+                [this](Index f) { return box_of(mesh_.vertices_of(f)); });
   }
 
   /// Whether two faces meet outside the vertices that they share.

@@ -9,6 +9,8 @@
 #include <surety/internal/deviation/reference.h>
 #include <surety/internal/operators/disc.h>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace surety::internal {
@@ -18,17 +20,13 @@ class Roughness_control
 public:
   Roughness_control(const Reference& reference, double cosine)
     : reference_(reference), cosine_(cosine), normal_(reference.number_of_vertices()),
-      is_sharp_(reference.number_of_vertices(), false)
+      cone_(reference.number_of_vertices(), none)
   {
     std::vector<Vector> sum(reference.number_of_vertices(), Vector::Zero());
     for (Index f = 0; f < reference.number_of_faces(); ++f) add_face(f, sum);
     for (Index v = 0; v < reference.number_of_vertices(); ++v)
       normal_[v] = unit(sum[v]).cast<float>();
-    for (Index f = 0; f < reference.number_of_faces(); ++f) {
-      const Vector n = reference.normal_of_face(f);
-      for (const Index v : reference.vertices_of_face(f))
-        if (n.dot(normal_[v].cast<double>()) < sharp_cosine) is_sharp_[v] = true;
-    }
+    for (Index v = 0; v < reference.number_of_vertices(); ++v) keep_cone_if_sharp(v);
   }
 
   template <class Points>
@@ -44,7 +42,7 @@ public:
   }
 
 private:
-  static constexpr double sharp_cosine = 0.9;
+  static constexpr float sharp_cosine = 0.9F;
 
   void add_face(Index f, std::vector<Vector>& sum) const
   {
@@ -67,25 +65,49 @@ private:
     double least = 1;
     for (const Index v : corner) {
       double cosine = n.dot(normal_[v].template cast<double>());
-      if (cosine < cosine_ && is_sharp_[v]) cosine = std::max(cosine, best_of_cone(v, n));
+      if (cosine < cosine_ && cone_[v] != none) cosine = std::max(cosine, best_of_cone(v, n));
       least = std::min(least, cosine);
     }
     return least;
   }
 
+  /// Stores the normals of the faces at v where one of them is far from the mean.
+  void keep_cone_if_sharp(Index v)
+  {
+    const std::size_t first = cone_normals_.size();
+    bool is_sharp = false;
+    for (const Index e : reference_.edges_at(v))
+      for (const Index f : reference_.faces_of_edge(e)) {
+        // Every face lies on two of the edges, or on one at a border.
+        if (f == none) continue;
+        const Eigen::Vector3f n = reference_.normal_of_face(f).cast<float>();
+        is_sharp = is_sharp || n.dot(normal_[v]) < sharp_cosine;
+        if (std::find(cone_normals_.begin() + static_cast<std::ptrdiff_t>(first),
+                      cone_normals_.end(), n)
+            == cone_normals_.end())
+          cone_normals_.push_back(n);
+      }
+    if (is_sharp) {
+      cone_[v] = static_cast<Index>(first);
+      cone_normals_.emplace_back(Eigen::Vector3f::Zero()); // ends the cone
+    } else {
+      cone_normals_.resize(first);
+    }
+  }
+
   double best_of_cone(Index v, const Vector& n) const
   {
     double best = -1;
-    for (const Index e : reference_.edges_at(v))
-      for (const Index f : reference_.faces_of_edge(e))
-        if (f != none) best = std::max(best, n.dot(reference_.normal_of_face(f)));
+    for (Index i = cone_[v]; !cone_normals_[i].isZero(0); ++i)
+      best = std::max(best, n.dot(cone_normals_[i].cast<double>()));
     return best;
   }
 
   const Reference& reference_;
   double cosine_;
   std::vector<Eigen::Vector3f> normal_;
-  std::vector<bool> is_sharp_;
+  std::vector<Index> cone_; ///< of a sharp vertex: where its normals begin
+  std::vector<Eigen::Vector3f> cone_normals_;
 };
 
 } // namespace surety::internal
