@@ -51,7 +51,7 @@ inline double sampling_error(const Mesh& mesh)
   double largest = 0;
   for (const Vertex v : mesh.vertices())
     for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(mesh.point(v)[i]));
-  return 1e-13 * largest;
+  return 1e-12 * largest;
 }
 
 /// The bounds of the faces in iteration order.
