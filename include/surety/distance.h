@@ -133,7 +133,7 @@ std::size_t maximum_subdivisions_or_default(
 /// meshes lie and whatever their size.
 ///
 /// The answer may also be that the bound is undecided: if the distance equals the bound up to
-/// rounding, which is some 10^-14 of the extent of the meshes, or if `maximum_subdivisions` is
+/// rounding, which is some 10^-13 of the extent of the meshes, or if `maximum_subdivisions` is
 /// reached.
 ///
 /// The search is a branch and bound over convex pieces of the faces with CGAL's AABB tree. It
@@ -192,7 +192,6 @@ Distance_certificate certify_distance(
   internal::hausdorff::Request request;
   request.bound = bound;
   request.slack = slack * bound;
-  request.is_joint = true;
   request.maximum_cuts
       = internal::maximum_subdivisions_or_default(np1, a.faces.size() + b.faces.size(), function);
   const auto [forward, backward] = internal::hausdorff::search(a, b, request);
@@ -205,7 +204,8 @@ Distance_certificate certify_distance(
 /// In each direction, the largest distance from a point of one surface to the other surface lies in
 /// the interval that is returned, and its lower end is attained by the witness. The intervals are
 /// rounded outwards. They are no wider than `accuracy`, unless that is less than rounding permits,
-/// some 10^-14 of the extent of the meshes, or `maximum_subdivisions` is reached: see
+/// which is 10^-12 of the extent of the meshes, or eight units in the last place of a coordinate if
+/// they lie far from the origin, or `maximum_subdivisions` is reached: see
 /// `Hausdorff_distance::is_accurate()`.
 ///
 /// \tparam Mesh1,Mesh2 models of `FaceListGraph` whose points have coordinates of type `double`.

@@ -41,6 +41,7 @@ public:
     for (int k = 0; k < size_; ++k) {
       if (tried_[k].face == face) return infinity;
     }
+    CGAL_assertion(size_ < static_cast<int>(tried_.size()));
     Trial& trial = tried_[size_++];
     trial.face = face;
     trial.known = 0;
@@ -109,7 +110,7 @@ private:
   static constexpr double least_depth = 1e-6;
   /// Corners this close to a plane, relative to the cell, are taken to lie on it: it costs nothing
   /// and avoids pieces without extent.
-  static constexpr double snap = 1e-10;
+  static constexpr double snap = 16 * unit_roundoff;
 
   double extend(Trial& trial)
   {

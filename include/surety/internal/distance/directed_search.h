@@ -19,13 +19,6 @@ namespace surety {
 namespace internal {
 namespace hausdorff {
 
-/// What a search has to find out; lengths in local coordinates.
-struct Search_options {
-  double bound;    ///< the search ends when a point is farther
-  double slack;    ///< width of the interval that is good enough
-  double rounding; ///< how far points move when they are reported
-};
-
 /// The interval for a directed distance, and the point that attains its lower end.
 struct Search_result {
   double lower = 0;
@@ -37,21 +30,28 @@ struct Search_result {
 
 /// \brief Bounds max {d(x, to): x in from} from both sides.
 ///
-/// Every triangle of `from` is a cell. A cell whose corners are all within the threshold of one
-/// face, or that one cut separates into two such cells, is done; another one is cut, and the
-/// nearest faces of its corners raise the lower bound. The threshold is the largest distance seen
-/// plus the slack, at most the bound that is asked for. Every cell ends by raising the upper bound
-/// to its own, so the interval holds whenever the search ends: it is wide, not wrong, where the
-/// cuts were used up.
+/// Every triangle of `from` is a cell. A cell whose corners are all within a threshold of one face,
+/// or that one cut separates into two such cells, is done; another one is cut, and the nearest
+/// faces of its corners raise the lower bound. Every cell ends by raising the upper bound to its
+/// own, so the interval holds whenever a search ends: it is wide, not wrong, where the cuts were
+/// used up. All lengths are in local coordinates.
 class Directed_search
 {
 public:
-  Directed_search(const Triangle_set& from, const Face_tree& to, const Search_options& options)
-    : from_(from), to_(to), options_(options)
+  /// \param bound the search ends when a point is farther than that.
+  /// \param slack width of the interval that is good enough.
+  /// \param rounding how far points move when they are reported.
+  Directed_search(
+      const Triangle_set& from, const Face_tree& to, double bound, double slack, double rounding)
+    : from_(from),
+      to_(to),
+      bound_(bound),
+      slack_((std::max)({slack, resolution, 4 * rounding})),
+      rounding_(rounding)
   {}
 
-  /// The distances of the vertices: enough to refute most bounds. Vertices that are within the
-  /// threshold of a face of their neighbours cannot matter, and keep that face.
+  /// The distances of the vertices: enough to refute most bounds. Vertices that cannot raise the
+  /// lower bound by more than the slack keep the face of their neighbours.
   void locate_vertices()
   {
     vertices_.resize(from_.number_of_points());
@@ -66,36 +66,36 @@ public:
           vertex.point = from_.point(v);
           vertex.upper = corner_distance(vertex, hint, to_);
           vertex.face = hint;
-          if (vertex.upper > threshold()) locate(vertex);
+          if (vertex.upper > (std::min)(bound_, good_enough())) locate(vertex);
         }
         hint = vertex.face;
       }
     }
   }
 
-  /// \brief The distances of all other points.
+  /// \brief Tries to prove the bound, as fast as possible; leaves an upper bound behind.
   ///
-  /// \param known a distance that occurs elsewhere: bounds below it interest nobody.
   /// \param maximum_cuts after which the cells that are left keep the bounds that they have.
   /// \pre The vertices are located.
-  void search_interior(double known, std::size_t maximum_cuts)
+  void prove(std::size_t maximum_cuts)
   {
-    known_ = known;
-    maximum_cuts_ = maximum_cuts;
-    result_.upper = 0;
-    const std::vector<Open_face> open = open_faces();
-    for (const Open_face& f : open) {
-      if (is_refuted()) break;
-      if (f.bound <= threshold()) {
-        result_.upper = (std::max)(result_.upper, f.bound);
-      } else {
-        search(f);
-      }
-    }
-    if (is_refuted()) result_.upper = std::numeric_limits<double>::infinity();
+    is_proof_ = true;
+    search(maximum_cuts);
   }
 
-  bool is_refuted() const { return result_.lower > options_.bound; }
+  /// \brief Narrows the interval, until it is no wider than the slack.
+  ///
+  /// \param known a distance that occurs elsewhere: what is less interests nobody.
+  /// \param maximum_cuts after which the cells that are left keep the bounds that they have.
+  /// \pre The vertices are located.
+  void measure(double known, std::size_t maximum_cuts)
+  {
+    known_ = known;
+    is_proof_ = false;
+    if (result_.upper > good_enough()) search(maximum_cuts);
+  }
+
+  bool is_refuted() const { return result_.lower > bound_; }
   const Search_result& result() const { return result_; }
 
 private:
@@ -104,15 +104,31 @@ private:
     double bound;
   };
 
-  /// A point that is neither within the bound nor beyond it, because of rounding, settles that the
-  /// bound cannot be proven; the search goes on for the sake of the interval.
-  double threshold() const
+  double good_enough() const { return (std::max)(result_.lower, known_) + slack_; }
+
+  /// Cells within the threshold need no cuts.
+  double threshold() const { return is_proof_ ? bound_ : good_enough(); }
+
+  /// A proof ends where it fails; the lower bound may go on to rise.
+  bool is_over() const { return is_refuted() || (is_proof_ && upper_ > bound_); }
+
+  void search(std::size_t maximum_cuts)
   {
-    const double good_enough = (std::max)(result_.lower, known_) + options_.slack;
-    return is_undecidable_ ? good_enough : (std::min)(options_.bound, good_enough);
+    cuts_left_ = maximum_cuts;
+    upper_ = 0;
+    for (const Open_face& f : open_faces()) {
+      if (is_over()) break;
+      if (f.bound <= threshold()) {
+        upper_ = (std::max)(upper_, f.bound);
+      } else {
+        search(f);
+      }
+    }
+    if (!is_over()) result_.upper = (std::min)(result_.upper, upper_);
+    result_.cuts += maximum_cuts - cuts_left_;
   }
 
-  void settle(const Cell& cell) { result_.upper = (std::max)(result_.upper, cell.bound); }
+  void settle(const Cell& cell) { upper_ = (std::max)(upper_, cell.bound); }
 
   /// Finds the face nearest to a corner, and raises the lower bound.
   void locate(Corner& corner)
@@ -122,9 +138,8 @@ private:
     corner.upper = nearest.upper + corner.error;
     corner.is_located = true;
     // Vertices are reported as they are, other points rounded.
-    const double error = corner.error > 0 ? corner.error + options_.rounding : 0;
+    const double error = corner.error > 0 ? corner.error + rounding_ : 0;
     const double lower = nearest.lower - error;
-    if (lower <= options_.bound && corner.upper > options_.bound) is_undecidable_ = true;
     if (lower <= result_.lower) return;
     result_.lower = lower;
     result_.witness = corner.point;
@@ -187,7 +202,7 @@ private:
     root.bound = open.bound;
     root.hint = corners_[0].face;
     stack_.assign(1, root);
-    while (!stack_.empty() && !is_refuted()) {
+    while (!stack_.empty() && !is_over()) {
       const Cell cell = stack_.back();
       stack_.pop_back();
       examine(cell);
@@ -200,8 +215,8 @@ private:
     Cover cover(cell, corners_, to_);
     if (is_covered_at_all(cell, cover)) return settle(cell);
     if (is_refuted()) return;
-    if (cannot_improve(cell) || result_.cuts >= maximum_cuts_) return settle(cell);
-    ++result_.cuts;
+    if (cannot_be_covered(cell) || cuts_left_ == 0) return settle(cell);
+    --cuts_left_;
     const double by_two = cover.bound_by_two(threshold());
     if (by_two <= threshold()) {
       cell.bound = by_two;
@@ -232,7 +247,7 @@ private:
     for (int i = 0; i < cell.size(); ++i) {
       Corner& corner = corners_[cell[i]];
       if (corner.is_located) continue;
-      for (const std::uint32_t face : {cell.hint, middle}) measure(corner, face);
+      for (const std::uint32_t face : {cell.hint, middle}) approach(corner, face);
       if (corner.upper <= threshold()) continue;
       locate(corner);
       if (is_refuted()) return false;
@@ -247,7 +262,7 @@ private:
   }
 
   /// Gives a corner a face that is closer than its own.
-  void measure(Corner& corner, std::uint32_t face) const
+  void approach(Corner& corner, std::uint32_t face) const
   {
     const double upper = corner_distance(corner, face, to_);
     if (upper >= corner.upper) return;
@@ -255,16 +270,14 @@ private:
     corner.face = face;
   }
 
-  /// Whether a corner alone keeps the bound where it is, or the cell has become too small to cut.
-  bool cannot_improve(const Cell& cell) const
+  /// Whether a corner is, up to rounding, too far from all faces, or the cell too small to cut.
+  bool cannot_be_covered(const Cell& cell) const
   {
-    double farthest = 0;
     for (int i = 0; i < cell.size(); ++i) {
       const Corner& corner = corners_[cell[i]];
-      if (corner.is_located) farthest = (std::max)(farthest, corner.upper);
+      if (corner.is_located && corner.upper > threshold()) return true;
     }
-    const double rounding = 64 * unit_roundoff; // in units of the largest coordinate
-    return cell.bound <= farthest + rounding || cell.depth >= greatest_depth;
+    return cell.depth >= greatest_depth;
   }
 
   Point centre(const Cell& cell) const
@@ -274,16 +287,25 @@ private:
     return CGAL::ORIGIN + sum / cell.size();
   }
 
+  /// Narrower intervals are not sought: rounding would get in the way. Errors of cells stay below
+  /// a hundredth of it.
+  static constexpr double resolution = 0x1p-40;
   /// Bisection reaches the resolution of a double after some hundred cuts.
   static constexpr int greatest_depth = 200;
 
   const Triangle_set& from_;
   const Face_tree& to_;
-  Search_options options_;
+  double bound_;
+  double slack_;
+  double rounding_;
   Search_result result_;
+
+  // Of the search that is running.
+  bool is_proof_ = false;
   double known_ = 0;
-  std::size_t maximum_cuts_ = 0;
-  bool is_undecidable_ = false;
+  double upper_ = 0;
+  std::size_t cuts_left_ = 0;
+
   std::vector<Corner> vertices_;
   std::vector<Corner> corners_; ///< of the cells of the current face
   std::vector<Cell> stack_;

@@ -27,16 +27,35 @@ struct Measured_distance {
 /// What to find out, in mesh units.
 struct Request {
   double bound = std::numeric_limits<double>::infinity();
+  /// Width of the interval that is good enough; for the larger of the two directions if there is a
+  /// bound, else for each.
   double slack = 0;
-  /// Whether one interval for both directions is enough.
-  bool is_joint = false;
   std::size_t maximum_cuts = 0;
+
+  bool is_decision() const { return bound < std::numeric_limits<double>::infinity(); }
 };
 
-/// \brief Searches both directions, the vertices of both first: most bounds fail there.
-///
-/// A direction that is not searched, because the other one has refuted the bound, keeps an infinite
-/// upper bound.
+/// The steps of a search, the cheap ones first; ends as soon as the bound is refuted.
+inline void search(Directed_search& forward, Directed_search& backward, const Request& request)
+{
+  const std::array<Directed_search*, 2> both = {&forward, &backward};
+  const auto is_refuted = [&] { return forward.is_refuted() || backward.is_refuted(); };
+  const auto cuts_left
+      = [&] { return request.maximum_cuts - forward.result().cuts - backward.result().cuts; };
+  for (Directed_search* direction : both) {
+    if (!is_refuted()) direction->locate_vertices();
+  }
+  for (Directed_search* direction : both) {
+    if (!is_refuted() && request.is_decision()) direction->prove(cuts_left());
+  }
+  for (Directed_search* direction : both) {
+    const Directed_search& other = direction == &forward ? backward : forward;
+    const double known = request.is_decision() ? other.result().lower : 0;
+    if (!is_refuted()) direction->measure(known, cuts_left());
+  }
+}
+
+/// Searches both directions. Where a bound is refuted, upper bounds may stay infinite.
 inline std::array<Measured_distance, 2> search(
     const Soup& first, const Soup& second, const Request& request)
 {
@@ -44,24 +63,11 @@ inline std::array<Measured_distance, 2> search(
   const std::array<Triangle_set, 2> triangles
       = {Triangle_set(first, frame), Triangle_set(second, frame)};
   const Face_tree first_tree(triangles[0]), second_tree(triangles[1]);
-  Search_options options;
-  options.bound = frame.to_local(request.bound);
-  options.slack = frame.to_local(request.slack);
-  options.rounding = frame.rounding();
-
-  Directed_search forward(triangles[0], second_tree, options);
-  Directed_search backward(triangles[1], first_tree, options);
-  forward.locate_vertices();
-  if (!forward.is_refuted()) backward.locate_vertices();
-  const auto is_refuted = [&] { return forward.is_refuted() || backward.is_refuted(); };
-  if (!is_refuted()) {
-    forward.search_interior(request.is_joint ? backward.result().lower : 0, request.maximum_cuts);
-  }
-  if (!is_refuted()) {
-    backward.search_interior(
-        request.is_joint ? forward.result().lower : 0,
-        request.maximum_cuts - forward.result().cuts);
-  }
+  const double bound = frame.to_local(request.bound);
+  const double slack = frame.to_local(request.slack);
+  Directed_search forward(triangles[0], second_tree, bound, slack, frame.rounding());
+  Directed_search backward(triangles[1], first_tree, bound, slack, frame.rounding());
+  search(forward, backward, request);
   const auto measured = [&](const Search_result& result) {
     return Measured_distance{
         frame.lower_to_mesh(result.lower), frame.upper_to_mesh(result.upper),
