@@ -185,10 +185,10 @@ class Stage
 {
 public:
   explicit Stage(const Mesh& mesh)
-    : elements_(mesh),
+    : elements_(mesh, get(CGAL::vertex_point, mesh)),
       connectivity_(surety::internal::read_connectivity(mesh, elements_)),
       reference_(surety::internal::make_reference(
-          elements_, get(CGAL::vertex_point, mesh), connectivity_)),
+          elements_, get(CGAL::vertex_point, mesh), 1.0, connectivity_)),
       working_(surety::internal::make_working_mesh(
           elements_, surety::find_features(mesh, with::feature_angle(180)), connectivity_))
   {}
@@ -208,6 +208,9 @@ public:
   }
   Accumulated_bound bound(double tolerance) const { return {reference_, working_, tolerance}; }
 
+  /// The index in the mesh of a vertex of the flat structures.
+  Index outside(Index v) const { return elements_.input_position[v]; }
+
   /// The largest bound after the operation, which must be admitted.
   double bound_after(const Disc& disc) const
   {
@@ -219,11 +222,17 @@ public:
   }
 
 private:
+  /// The index that a vertex of the mesh has in the flat structures.
+  Index inside(Index v) const
+  {
+    const auto& positions = elements_.input_position;
+    return static_cast<Index>(std::find(positions.begin(), positions.end(), v) - positions.begin());
+  }
   Index halfedge(Index from, Index to) const
   {
     Index result = surety::internal::none;
-    working_.for_each_outgoing(from, [&](Index h) {
-      if (working_.target(h) == to) result = h;
+    working_.for_each_outgoing(inside(from), [&](Index h) {
+      if (working_.target(h) == inside(to)) result = h;
     });
     EXPECT_NE(result, surety::internal::none);
     return result;
@@ -373,7 +382,10 @@ TEST_P(Random_collapse, keeps_each_new_face_within_its_bound)
     double largest = 0;
     Soup after{to_soup(before).points, {}};
     for (Index j = 1; j + 1 < k; ++j) {
-      Soup face{after.points, {{disc.ring[0], disc.ring[j], disc.ring[j + 1]}}};
+      Soup face{
+          after.points,
+          {{stage.outside(disc.ring[0]), stage.outside(disc.ring[j]),
+            stage.outside(disc.ring[j + 1])}}};
       after.triangles.push_back(face.triangles[0]);
       EXPECT_LE(sampled_distance_to(to_mesh(face), before, 0, 8), bounds[disc.face[j]] + 1e-15);
       largest = std::max(largest, bounds[disc.face[j]]);

@@ -206,7 +206,8 @@ Certificate make_geometric_mesh(
     map = &direct->map();
     deviation = std::move(direct);
   } else {
-    deviation = std::make_unique<internal::Accumulated_bound>(reference, working, scale * tolerance);
+    deviation
+        = std::make_unique<internal::Accumulated_bound>(reference, working, scale * tolerance);
   }
 
   internal::Simplifier simplifier(

@@ -11,14 +11,14 @@ namespace surety {
 
 /// Why an operation was admitted or refused, cheapest test first.
 enum class Verdict {
-  accept,            ///< performed
-  feature,           ///< would break a ridge, a border, a corner or a constraint
-  topology,          ///< link condition, or the edge exists already
-  shape,             ///< a new face is worse than shape_floor and than shape_ratio times the old ones
-  roughness,         ///< a new face turns away from the normals of the input
-  deviation,         ///< a point would move farther than the tolerance
-  correspondence,    ///< the map between input and output cannot be extended over a face
-  self_intersection  ///< a new face meets a face that it does not touch
+  accept,         ///< performed
+  feature,        ///< would break a ridge, a border, a corner or a constraint
+  topology,       ///< link condition, or the edge exists already
+  shape,          ///< a new face is worse than shape_floor and than shape_ratio times the old ones
+  roughness,      ///< a new face turns away from the normals of the input
+  deviation,      ///< a point would move farther than the tolerance
+  correspondence, ///< the map between input and output cannot be extended over a face
+  self_intersection ///< a new face meets a face that it does not touch
 };
 
 constexpr std::size_t number_of_verdicts = 8;

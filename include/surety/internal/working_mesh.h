@@ -25,12 +25,16 @@ public:
     Index vertices = 0, faces = 0;
   };
 
-  Working_mesh(Connectivity connectivity, std::vector<bool> feature_edge,
-               std::vector<bool> fixed_vertex)
-    : next_(std::move(connectivity.next)), target_(std::move(connectivity.target)),
-      face_(std::move(connectivity.face)), feature_(std::move(feature_edge)),
-      fixed_(std::move(fixed_vertex)), real_vertices_(connectivity.vertices),
-      real_faces_(connectivity.faces), real_edges_(static_cast<Index>(next_.size() / 2)),
+  Working_mesh(
+      Connectivity connectivity, std::vector<bool> feature_edge, std::vector<bool> fixed_vertex)
+    : next_(std::move(connectivity.next)),
+      target_(std::move(connectivity.target)),
+      face_(std::move(connectivity.face)),
+      feature_(std::move(feature_edge)),
+      fixed_(std::move(fixed_vertex)),
+      real_vertices_(connectivity.vertices),
+      real_faces_(connectivity.faces),
+      real_edges_(static_cast<Index>(next_.size() / 2)),
       live_faces_(connectivity.faces)
   {
     close_borders();
@@ -126,9 +130,9 @@ private:
 inline void Working_mesh::collapse(Index h)
 {
   const Index p = source(h), q = target(h);
-  const Index left = next(h);                // q -> r_1
-  const Index left_spoke = opposite(prev(h)); // p -> r_1
-  const Index right = prev(opposite(h));     // r_{k-1} -> q
+  const Index left = next(h);                  // q -> r_1
+  const Index left_spoke = opposite(prev(h));  // p -> r_1
+  const Index right = prev(opposite(h));       // r_{k-1} -> q
   const Index right_spoke = next(opposite(h)); // p -> r_{k-1}
   remove_face(face_[h]);
   remove_face(face_[opposite(h)]);

@@ -23,8 +23,8 @@ inline double squared_distance_to_segment(const Vector& p, const Vector& a, cons
 
 /// Squared distance of p to the triangle a, a + ab, a + ac, by the Voronoi region of p
 /// (Ericson, Real-Time Collision Detection, section 5.1.5).
-inline double squared_distance_to_triangle(const Vector& p, const Vector& a, const Vector& ab,
-                                           const Vector& ac)
+inline double squared_distance_to_triangle(
+    const Vector& p, const Vector& a, const Vector& ab, const Vector& ac)
 {
   const Vector ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
@@ -52,16 +52,16 @@ inline double squared_distance_to_triangle(const Vector& p, const Vector& a, con
 
 /// The parameter in [low, high] of the point of a + lambda d closest to the segment from q along e
 /// (same book, section 5.1.9; parallel segments take the middle of what they share).
-inline double closest_parameter(const Vector& a, const Vector& d, double low, double high,
-                                const Vector& q, const Vector& e)
+inline double closest_parameter(
+    const Vector& a, const Vector& d, double low, double high, const Vector& q, const Vector& e)
 {
   const Vector r = a - q;
   const double dd = d.squaredNorm(), ee = e.squaredNorm(), de = d.dot(e);
   const double dr = d.dot(r), er = e.dot(r);
   const double determinant = dd * ee - de * de;
   if (!(dd > 0) || !(ee > 0)) return low;
-  double lambda = determinant > 1e-14 * dd * ee ? (de * er - dr * ee) / determinant
-                                                : (low + high) / 2;
+  double lambda
+      = determinant > 1e-14 * dd * ee ? (de * er - dr * ee) / determinant : (low + high) / 2;
   lambda = std::clamp(lambda, low, high);
   const double mu = std::clamp((de * lambda + er) / ee, 0.0, 1.0);
   return std::clamp((de * mu - dr) / dd, low, high);

@@ -30,10 +30,13 @@ class Direct_bound final : public Deviation_policy
 {
 public:
   Direct_bound(const Reference& reference, const Working_mesh& mesh, double tolerance)
-    : reference_(reference), mesh_(mesh), rounding_(reference.largest_coordinate()),
+    : reference_(reference),
+      mesh_(mesh),
+      rounding_(reference.largest_coordinate()),
       squared_limit_(rounding_.squared_limit(tolerance)),
-      map_(reference.number_of_vertices(), reference.number_of_edges(), mesh.number_of_edges(),
-           mesh.number_of_real_faces()),
+      map_(
+          reference.number_of_vertices(), reference.number_of_edges(), mesh.number_of_edges(),
+          mesh.number_of_real_faces()),
       slot_of_vertex_(reference.number_of_vertices(), 0),
       slot_of_edge_(reference.number_of_edges(), 0),
       blocker_(reference.number_of_vertices(), none)
@@ -83,8 +86,7 @@ private:
   bool move_vertices();
   bool move_to_faces(Index v, Index low, Index high);
   bool move_to_ridge(Index v);
-  double nearest_face(const Disc& disc, const Vector& p, Index low, Index high,
-                      Index& face) const;
+  double nearest_face(const Disc& disc, const Vector& p, Index low, Index high, Index& face) const;
   std::array<Index, 2> side_of_old_face(Index i) const;
 
   // Step 2: the T edges that meet the disc, and their new crossings.

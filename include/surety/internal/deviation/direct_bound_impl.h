@@ -28,8 +28,7 @@ public:
     Index found = none;
     mesh_.for_each_outgoing(u, [&](Index h) {
       const Index f = mesh_.face(h);
-      if (disc_.position_of_old_face(f) == none && mesh_.has_vertex(f, v)
-          && mesh_.has_vertex(f, w))
+      if (disc_.position_of_old_face(f) == none && mesh_.has_vertex(f, v) && mesh_.has_vertex(f, w))
         found = f;
     });
     return found;
@@ -47,8 +46,8 @@ inline std::array<Index, 2> Direct_bound::side_of_old_face(Index i) const
   return {disc_->ridge, disc_->last};
 }
 
-inline double Direct_bound::nearest_face(const Disc& disc, const Vector& p, Index low,
-                                         Index high, Index& face) const
+inline double Direct_bound::nearest_face(
+    const Disc& disc, const Vector& p, Index low, Index high, Index& face) const
 {
   const Vector& apex = point(disc.apex());
   double best = std::numeric_limits<double>::infinity();
@@ -94,8 +93,9 @@ inline bool Direct_bound::move_to_ridge(Index v)
         <= squared_limit_))
     return false;
   slot_of_vertex_[v] = static_cast<Index>(vertices_.size());
-  vertices_.push_back({v, Element(Element::Kind::edge, disc_->spoke[m]),
-                       std::max(m - 1, disc_->first), std::min(m, disc_->last)});
+  vertices_.push_back(
+      {v, Element(Element::Kind::edge, disc_->spoke[m]), std::max(m - 1, disc_->first),
+       std::min(m, disc_->last)});
   return true;
 }
 
@@ -201,10 +201,10 @@ inline Verdict Direct_bound::route(Index e)
     const bool known
         = (previous == none
                ? stop_at_vertex(s, 0, from)
-               : stop_at_node({previous, map_.node(previous).m_edge, map_.node(previous).lambda},
-                              from))
-          && (next == none ? stop_at_vertex(t, 1, to)
-                           : stop_at_node({next, map_.node(next).m_edge, lambda_of_next}, to));
+               : stop_at_node(
+                   {previous, map_.node(previous).m_edge, map_.node(previous).lambda}, from))
+        && (next == none ? stop_at_vertex(t, 1, to)
+                         : stop_at_node({next, map_.node(next).m_edge, lambda_of_next}, to));
     return known ? connect(e, from, to) : Verdict::correspondence;
   };
 
@@ -218,8 +218,10 @@ inline Verdict Direct_bound::route(Index e)
     const Verdict verdict = join(n, node.lambda);
     if (verdict != Verdict::accept) return verdict;
     // Two successive crossings of one edge are none.
-    if (nodes_.size() > first && nodes_.back().m_edge == node.m_edge) nodes_.pop_back();
-    else nodes_.push_back({n, node.m_edge, node.lambda});
+    if (nodes_.size() > first && nodes_.back().m_edge == node.m_edge)
+      nodes_.pop_back();
+    else
+      nodes_.push_back({n, node.m_edge, node.lambda});
     previous = n;
     through_disc = false;
   }
@@ -234,8 +236,8 @@ inline bool Direct_bound::runs_inside(Index e, Index previous, Index next) const
   const auto [s, t] = reference_.vertices_of_edge(e);
   const auto places = [&](Index node, Index end) {
     // Bit i: on link edge i (closed).
-    const Element element = node != none
-        ? Element(Element::Kind::edge, map_.node(node).m_edge) : map_.image(end);
+    const Element element
+        = node != none ? Element(Element::Kind::edge, map_.node(node).m_edge) : map_.image(end);
     unsigned links = 0;
     if (element.kind() == Element::Kind::vertex) {
       const Index j = disc_->position_in_ring(element.id());
@@ -375,20 +377,26 @@ inline void Direct_bound::commit(const Disc& disc)
     };
     for (Index n = map_.first_node_of_t(routed.edge); n != none;) {
       const Index next = map_.node(n).next_on_t;
-      if (next_kept() == n) ++kept;
-      else map_.remove_node(n);
+      if (next_kept() == n)
+        ++kept;
+      else
+        map_.remove_node(n);
       n = next;
     }
     Index last = none;
     for (Index i = routed.first; i < routed.last; ++i) {
       Pending_node& node = nodes_[i];
       if (node.node == none) node.node = map_.add_node(routed.edge, node.m_edge, node.lambda);
-      if (last == none) map_.set_first_node(routed.edge, node.node);
-      else map_.set_next_node(last, node.node);
+      if (last == none)
+        map_.set_first_node(routed.edge, node.node);
+      else
+        map_.set_next_node(last, node.node);
       last = node.node;
     }
-    if (last == none) map_.set_first_node(routed.edge, none);
-    else map_.set_next_node(last, none);
+    if (last == none)
+      map_.set_first_node(routed.edge, none);
+    else
+      map_.set_next_node(last, none);
   }
 }
 
@@ -444,8 +452,10 @@ inline std::vector<double> Direct_bound::face_bounds() const
     if (element.kind() != Element::Kind::face) continue;
     const auto corner = mesh_.vertices_of(element.id());
     const Vector& a = point(corner[0]);
-    raise(element.id(), squared_distance_to_triangle(reference_.point(v), a, point(corner[1]) - a,
-                                                     point(corner[2]) - a));
+    raise(
+        element.id(),
+        squared_distance_to_triangle(
+            reference_.point(v), a, point(corner[1]) - a, point(corner[2]) - a));
   }
   for (Index e = 0; e < reference_.number_of_edges(); ++e) {
     const auto [s, t] = reference_.vertices_of_edge(e);

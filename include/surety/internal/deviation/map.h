@@ -43,8 +43,11 @@ class Map
 public:
   /// The identity: every vertex of T is pinned to the vertex of M that it is.
   Map(Index vertices, Index t_edges, Index m_edges, Index faces)
-    : image_(vertices), next_assigned_(vertices, none), first_on_face_(faces, none),
-      first_on_edge_(m_edges, none), first_node_of_t_(t_edges, none),
+    : image_(vertices),
+      next_assigned_(vertices, none),
+      first_on_face_(faces, none),
+      first_on_edge_(m_edges, none),
+      first_node_of_t_(t_edges, none),
       first_node_of_m_(m_edges, none)
   {
     for (Index v = 0; v < vertices; ++v) image_[v] = Element(Element::Kind::vertex, v);
@@ -103,8 +106,10 @@ public:
   {
     const Node& node = nodes_[n];
     if (node.next_on_m != none) nodes_[node.next_on_m].previous_on_m = node.previous_on_m;
-    if (node.previous_on_m != none) nodes_[node.previous_on_m].next_on_m = node.next_on_m;
-    else first_node_of_m_[node.m_edge] = node.next_on_m;
+    if (node.previous_on_m != none)
+      nodes_[node.previous_on_m].next_on_m = node.next_on_m;
+    else
+      first_node_of_m_[node.m_edge] = node.next_on_m;
     nodes_[n].next_on_t = free_;
     free_ = n;
   }

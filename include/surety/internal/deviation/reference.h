@@ -17,11 +17,14 @@ class Reference
 public:
   /// Half-edges 2e and 2e + 1 are edge e; a border half-edge has face `none`. `input_position` is
   /// the order of the vertices in the user's mesh, which directs the edges.
-  Reference(std::vector<Vector> points, const std::vector<Index>& next,
-            const std::vector<Index>& target, const std::vector<Index>& face, Index faces,
-            const std::vector<Index>& input_position)
-    : points_(std::move(points)), face_edges_(faces), edge_vertices_(next.size() / 2),
-      edge_faces_(next.size() / 2), first_edge_(points_.size() + 1, 0),
+  Reference(
+      std::vector<Vector> points, const std::vector<Index>& next, const std::vector<Index>& target,
+      const std::vector<Index>& face, Index faces, const std::vector<Index>& input_position)
+    : points_(std::move(points)),
+      face_edges_(faces),
+      edge_vertices_(next.size() / 2),
+      edge_faces_(next.size() / 2),
+      first_edge_(points_.size() + 1, 0),
       incident_edges_(next.size())
   {
     for (Index e = 0; e < number_of_edges(); ++e) {
@@ -57,8 +60,8 @@ public:
       const Index* begin() const { return first; }
       const Index* end() const { return last; }
     };
-    return Range{incident_edges_.data() + first_edge_[v],
-                 incident_edges_.data() + first_edge_[v + 1]};
+    return Range{
+        incident_edges_.data() + first_edge_[v], incident_edges_.data() + first_edge_[v + 1]};
   }
   Index other_end(Index e, Index v) const
   {

@@ -33,8 +33,7 @@ constexpr double unit_roundoff = 0x1p-53;
 class Rounding
 {
 public:
-  explicit Rounding(double largest_coordinate)
-    : absolute_(64 * unit_roundoff * largest_coordinate)
+  explicit Rounding(double largest_coordinate) : absolute_(64 * unit_roundoff * largest_coordinate)
   {}
 
   /// An upper bound of the true distance, from the square of the computed one.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A tree of bounding boxes over the faces of M that follows the mesh as it changes: neighbours in
-// index are neighbours in space and share a leaf, and a changed face refits the boxes above it. Static trees (CGAL's AABB tree) would
-// have to be rebuilt, and a dynamic R-tree takes several times the memory.
+// index are neighbours in space and share a leaf, and a changed face refits the boxes above it.
+// Static trees (CGAL's AABB tree) would have to be rebuilt, and a dynamic R-tree takes several
+// times the memory.
 #ifndef SURETY_INTERNAL_GEOMETRIC_MESH_BOX_TREE_H
 #define SURETY_INTERNAL_GEOMETRIC_MESH_BOX_TREE_H
 
@@ -34,8 +35,7 @@ struct Float_box {
   bool meets(const Float_box& box) const
   {
     bool result = true;
-    for (int i = 0; i < 3; ++i)
-      result = result & (low[i] <= box.high[i]) & (box.low[i] <= high[i]);
+    for (int i = 0; i < 3; ++i) result = result & (low[i] <= box.high[i]) & (box.low[i] <= high[i]);
     return result;
   }
   bool operator==(const Float_box& box) const

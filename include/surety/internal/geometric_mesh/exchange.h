@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Between the user's Surface_mesh and the flat structures: T and M are read from it, and the result
-// is written back over it, element by element, so that the user's property maps stay where they are.
+// is written back over it, element by element, so that the user's property maps stay where they
+// are.
 #ifndef SURETY_INTERNAL_GEOMETRIC_MESH_EXCHANGE_H
 #define SURETY_INTERNAL_GEOMETRIC_MESH_EXCHANGE_H
 
@@ -56,8 +57,8 @@ struct Elements {
 
 private:
   // Edges and faces follow the first of their vertices.
-  void append_elements_at(const Mesh& mesh, Vertex v, std::vector<bool>& has_edge,
-                          std::vector<bool>& has_face)
+  void append_elements_at(
+      const Mesh& mesh, Vertex v, std::vector<bool>& has_edge, std::vector<bool>& has_face)
   {
     for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v))) {
       const Edge e(typename Mesh::Halfedge_index(static_cast<Index>(h) & ~1u));
@@ -118,8 +119,9 @@ Reference make_reference(
   std::vector<Vector> coordinates;
   coordinates.reserve(elements.vertices.size());
   for (const auto v : elements.vertices) coordinates.push_back(scale * to_vector(get(points, v)));
-  return Reference(std::move(coordinates), connectivity.next, connectivity.target,
-                   connectivity.face, connectivity.faces, elements.input_position);
+  return Reference(
+      std::move(coordinates), connectivity.next, connectivity.target, connectivity.face,
+      connectivity.faces, elements.input_position);
 }
 
 /// The feature edges by position.
@@ -132,13 +134,14 @@ std::vector<bool> features_in_order(const Elements<Mesh>& elements, const Featur
 }
 
 template <class Mesh>
-Working_mesh make_working_mesh(const Elements<Mesh>& elements, const Features& features,
-                               Working_mesh::Connectivity connectivity)
+Working_mesh make_working_mesh(
+    const Elements<Mesh>& elements, const Features& features,
+    Working_mesh::Connectivity connectivity)
 {
   std::vector<bool> fixed(elements.vertices.size());
   for (Index v = 0; v < fixed.size(); ++v) fixed[v] = features.corner[elements.vertices[v]];
-  return Working_mesh(std::move(connectivity), features_in_order(elements, features),
-                      std::move(fixed));
+  return Working_mesh(
+      std::move(connectivity), features_in_order(elements, features), std::move(fixed));
 }
 
 /// Gives the mesh the connectivity of `result`, which was read from it. Allocates nothing, so that
@@ -191,9 +194,11 @@ template <class Mesh>
 Compaction compact(const Elements<Mesh>& elements, Mesh& mesh)
 {
   auto vertex_name = mesh.template add_property_map<typename Mesh::Vertex_index, Index>(
-      "v:surety_position", none).first;
-  auto face_name = mesh.template add_property_map<typename Mesh::Face_index, Index>(
-      "f:surety_position", none).first;
+                             "v:surety_position", none)
+                         .first;
+  auto face_name
+      = mesh.template add_property_map<typename Mesh::Face_index, Index>("f:surety_position", none)
+            .first;
   for (Index v = 0; v < elements.vertices.size(); ++v) vertex_name[elements.vertices[v]] = v;
   for (Index f = 0; f < elements.faces.size(); ++f) face_name[elements.faces[f]] = f;
   mesh.collect_garbage();

@@ -82,8 +82,7 @@ private:
   Float_box box_of(const Corners& corners) const
   {
     Float_box box;
-    for (const Index v : corners)
-      box.add((reference_.point(v) - origin_).cast<float>().array());
+    for (const Index v : corners) box.add((reference_.point(v) - origin_).cast<float>().array());
     return box;
   }
   void build_tree()
@@ -92,8 +91,9 @@ private:
     live.reserve(mesh_.number_of_live_faces());
     for (Index f = 0; f < mesh_.number_of_real_faces(); ++f)
       if (mesh_.is_live_face(f)) live.push_back(f);
-    tree_.build(std::move(live), mesh_.number_of_real_faces(),
-                [this](Index f) { return box_of(mesh_.vertices_of(f)); });
+    tree_.build(std::move(live), mesh_.number_of_real_faces(), [this](Index f) {
+      return box_of(mesh_.vertices_of(f));
+    });
   }
 
   /// Whether two faces meet outside the vertices that they share.

@@ -38,7 +38,7 @@ public:
   {
     const double x = p.x(), y = p.y(), z = p.z();
     return x * (xx_ * x + 2 * (xy_ * y + xz_ * z)) + y * (yy_ * y + 2 * yz_ * z) + zz_ * z * z
-         - 2 * b_.dot(p) + c_;
+        - 2 * b_.dot(p) + c_;
   }
 
 private:

@@ -19,9 +19,13 @@ class Recorder
 {
 public:
   /// `input_position` tells where each vertex of T stands in the user's mesh.
-  Recorder(const Reference& reference, const Working_mesh& mesh, const Map& map,
-           const std::vector<Index>& input_position, const Compaction& compaction)
-    : reference_(reference), mesh_(mesh), map_(map), input_position_(input_position),
+  Recorder(
+      const Reference& reference, const Working_mesh& mesh, const Map& map,
+      const std::vector<Index>& input_position, const Compaction& compaction)
+    : reference_(reference),
+      mesh_(mesh),
+      map_(map),
+      input_position_(input_position),
       compaction_(compaction)
   {}
 
@@ -39,8 +43,8 @@ public:
       const auto faces = reference_.faces_of_edge(e);
       if (is_ridge[e] && faces[0] != none && faces[1] != none) result.ridges.push_back(ends_of(e));
     }
-    std::sort(order.begin(), order.end(),
-              [&](Index a, Index b) { return ends_of(a) < ends_of(b); });
+    std::sort(
+        order.begin(), order.end(), [&](Index a, Index b) { return ends_of(a) < ends_of(b); });
     std::sort(result.ridges.begin(), result.ridges.end());
 
     result.offsets.push_back(0);

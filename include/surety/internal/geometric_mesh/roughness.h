@@ -19,7 +19,9 @@ class Roughness_control
 {
 public:
   Roughness_control(const Reference& reference, double cosine)
-    : reference_(reference), cosine_(cosine), normal_(reference.number_of_vertices()),
+    : reference_(reference),
+      cosine_(cosine),
+      normal_(reference.number_of_vertices()),
       cone_(reference.number_of_vertices(), none)
   {
     std::vector<Vector> sum(reference.number_of_vertices(), Vector::Zero());
@@ -82,8 +84,8 @@ private:
         if (f == none) continue;
         const Eigen::Vector3f n = reference_.normal_of_face(f).cast<float>();
         is_sharp = is_sharp || n.dot(normal_[v]) < sharp_cosine;
-        if (std::find(cone_normals_.begin() + static_cast<std::ptrdiff_t>(first),
-                      cone_normals_.end(), n)
+        if (std::find(
+                cone_normals_.begin() + static_cast<std::ptrdiff_t>(first), cone_normals_.end(), n)
             == cone_normals_.end())
           cone_normals_.push_back(n);
       }

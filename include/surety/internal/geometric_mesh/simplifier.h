@@ -32,12 +32,18 @@ class Simplifier
 public:
   using Report_progress = std::function<bool(const Progress&)>;
 
-  Simplifier(const Reference& reference, Working_mesh& mesh, Deviation_policy& deviation,
-             const Simplification_controls& controls, Report_progress report)
-    : reference_(reference), mesh_(mesh), deviation_(deviation), controls_(controls),
+  Simplifier(
+      const Reference& reference, Working_mesh& mesh, Deviation_policy& deviation,
+      const Simplification_controls& controls, Report_progress report)
+    : reference_(reference),
+      mesh_(mesh),
+      deviation_(deviation),
+      controls_(controls),
       shape_(controls.shape_ratio, controls.shape_floor),
-      roughness_(reference, controls.roughness_cosine), report_(std::move(report)),
-      queue_(reference.number_of_vertices()), quadric_(reference.number_of_vertices()),
+      roughness_(reference, controls.roughness_cosine),
+      report_(std::move(report)),
+      queue_(reference.number_of_vertices()),
+      quadric_(reference.number_of_vertices()),
       best_(reference.number_of_vertices(), none),
       refused_(2 * std::size_t(reference.number_of_edges()), false)
   {
@@ -107,8 +113,7 @@ inline void Simplifier::initialise_quadrics()
   const Vector origin = point(0);
   for (Index f = 0; f < reference_.number_of_faces(); ++f) {
     const auto v = reference_.vertices_of_face(f);
-    const Quadric q
-        = Quadric::of_plane(point(v[0]) - origin, reference_.normal_of_face(f), 1);
+    const Quadric q = Quadric::of_plane(point(v[0]) - origin, reference_.normal_of_face(f), 1);
     for (const Index corner : v) quadric_[corner] += q;
   }
   // Feature edges resist by a plane through them, perpendicular to their face.
@@ -148,8 +153,10 @@ inline void Simplifier::schedule(Index p)
     if (best == none || c < least || (c == least && h < best)) best = h, least = c;
   });
   best_[p] = best;
-  if (best == none) queue_.remove(p);
-  else queue_.set(p, least);
+  if (best == none)
+    queue_.remove(p);
+  else
+    queue_.set(p, least);
 }
 
 inline bool Simplifier::collapse_all()

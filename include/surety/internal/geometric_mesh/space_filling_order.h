@@ -34,8 +34,8 @@ inline std::vector<Index> space_filling_order(const std::vector<Vector>& points)
   std::vector<std::pair<std::uint64_t, Index>> order(points.size());
   for (Index i = 0; i < points.size(); ++i) {
     const Vector place = (points[i] - low) / extent;
-    order[i] = {spread_bits(place.x()) | spread_bits(place.y()) << 1 | spread_bits(place.z()) << 2,
-                i};
+    order[i]
+        = {spread_bits(place.x()) | spread_bits(place.y()) << 1 | spread_bits(place.z()) << 2, i};
   }
   std::sort(order.begin(), order.end());
 

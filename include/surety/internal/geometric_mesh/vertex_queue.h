@@ -56,10 +56,7 @@ public:
 private:
   static constexpr Index arity = 4;
 
-  bool before(Index a, Index b) const
-  {
-    return cost_[a] != cost_[b] ? cost_[a] < cost_[b] : a < b;
-  }
+  bool before(Index a, Index b) const { return cost_[a] != cost_[b] ? cost_[a] < cost_[b] : a < b; }
   void put(Index place, Index v)
   {
     heap_[place] = v;

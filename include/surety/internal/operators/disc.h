@@ -14,13 +14,15 @@
 namespace surety::internal {
 
 /// ring[0] is the apex Q. With k ring vertices the new faces are F_i = (Q, r_i, r_{i+1}) for
-/// i = 1 .. k-2, in linear order; the new spoke s_i = (Q, r_i), i = 2 .. k-2, parts F_{i-1} from F_i.
+/// i = 1 .. k-2, in linear order; the new spoke s_i = (Q, r_i), i = 2 .. k-2, parts F_{i-1} from
+/// F_i.
 struct Disc {
-  std::vector<Index> ring;      ///< r_0 = Q, r_1, ..., r_{k-1}, counter-clockwise
-  std::vector<Index> link;      ///< edge (r_i, r_{i+1}) of the ring
-  std::vector<Index> face;      ///< face[i] = index that F_i takes; entries 0 and k-1 unused
-  std::vector<Index> spoke;     ///< spoke[i] = index that s_i takes; entries 0, 1, k-1 unused
-  std::vector<Index> old_face;  ///< faces of the disc before; for a collapse old_face[i] = (P, r_i, r_{i+1})
+  std::vector<Index> ring;  ///< r_0 = Q, r_1, ..., r_{k-1}, counter-clockwise
+  std::vector<Index> link;  ///< edge (r_i, r_{i+1}) of the ring
+  std::vector<Index> face;  ///< face[i] = index that F_i takes; entries 0 and k-1 unused
+  std::vector<Index> spoke; ///< spoke[i] = index that s_i takes; entries 0, 1, k-1 unused
+  std::vector<Index>
+      old_face; ///< faces of the disc before; for a collapse old_face[i] = (P, r_i, r_{i+1})
   std::vector<Index> old_spoke; ///< edges inside the disc before; for a collapse (P, r_i)
   Index removed = none;         ///< P, or none for a flip
   Index ridge = 0;              ///< m where the ridge through P goes on along s_m; 0: no ridge
@@ -49,10 +51,7 @@ struct Disc {
   }
 
   /// The new face on the inner side of link edge i.
-  Index fan_face_at_link(Index i) const
-  {
-    return std::clamp<Index>(i, 1, size() - 2);
-  }
+  Index fan_face_at_link(Index i) const { return std::clamp<Index>(i, 1, size() - 2); }
 
 private:
   static Index position(const std::vector<Index>& list, Index value)

@@ -21,8 +21,8 @@ inline bool satisfies_link_condition(const Working_mesh& mesh, const Disc& disc)
   return common == 2 && !(disc.size() == 3 && degree == 3);
 }
 
-/// The ridge rule: P has no feature edge, or exactly two of which PQ is one. In the second case sets
-/// disc.ridge to the place of the other one, which the new ridge edge takes.
+/// The ridge rule: P has no feature edge, or exactly two of which PQ is one. In the second case
+/// sets disc.ridge to the place of the other one, which the new ridge edge takes.
 inline bool satisfies_ridge_rule(const Working_mesh& mesh, Disc& disc)
 {
   Index features = 0, other = 0;
@@ -33,8 +33,7 @@ inline bool satisfies_ridge_rule(const Working_mesh& mesh, Disc& disc)
     }
   if (features == 0) return true;
   // Next to PQ the new ridge edge would fall on one that exists already.
-  if (features != 2 || !mesh.is_feature(disc.old_spoke[0]) || other < 2
-      || other + 2 > disc.size())
+  if (features != 2 || !mesh.is_feature(disc.old_spoke[0]) || other < 2 || other + 2 > disc.size())
     return false;
   disc.ridge = other;
   return true;
@@ -53,8 +52,8 @@ inline Verdict check_flip_topology(const Working_mesh& mesh, const Disc& disc)
 {
   if (mesh.is_feature(disc.old_spoke[0])) return Verdict::feature;
   bool exists = false;
-  mesh.for_each_outgoing(disc.apex(),
-                         [&](Index h) { exists = exists || mesh.target(h) == disc.ring[2]; });
+  mesh.for_each_outgoing(
+      disc.apex(), [&](Index h) { exists = exists || mesh.target(h) == disc.ring[2]; });
   return exists ? Verdict::topology : Verdict::accept;
 }
 
