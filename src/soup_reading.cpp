@@ -234,7 +234,7 @@ std::string plain_obj(std::string text)
   }
   std::string plain;
   plain.reserve(text.size());
-  std::istringstream lines(std::move(text));
+  std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     const std::size_t start = line.find_first_not_of(' ');
     if (start == std::string::npos || start + 1 >= line.size() || line[start + 1] != ' ') continue;
