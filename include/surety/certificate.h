@@ -120,23 +120,27 @@ Certificate_check check_certificate(
                     "meshes with certify_distance instead";
     return answer;
   }
-  const auto input_table = checker::read_triangles(
+  auto input_table = checker::read_triangles(
       input,
       choose_parameter(
           get_parameter(np_input, CGAL::internal_np::vertex_point), get(CGAL::vertex_point, input)),
       "input");
-  const auto output_table = checker::read_triangles(
+  auto output_table = checker::read_triangles(
       output,
       choose_parameter(
           get_parameter(np_output, CGAL::internal_np::vertex_point),
           get(CGAL::vertex_point, output)),
       "output");
+  const double scale = checker::scale_of_products(input_table);
+  input_table.scale(scale);
+  output_table.scale(scale);
   checker::Checker check(input_table, output_table, *certificate.correspondence());
-  answer.holds = check.check(certificate.tolerance(), certificate.bound());
+  answer.holds = check.check(scale * certificate.tolerance(), scale * certificate.bound());
   answer.reason = check.reason();
   if (answer.holds) {
-    answer.bound = check.bound();
+    answer.bound = check.bound() / scale;
     answer.face_bounds = check.face_bounds();
+    for (double& bound : answer.face_bounds) bound /= scale;
   }
   return answer;
 }

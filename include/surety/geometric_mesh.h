@@ -210,9 +210,8 @@ Certificate make_geometric_mesh(
         = std::make_unique<internal::Accumulated_bound>(reference, working, scale * tolerance);
   }
 
-  internal::Simplifier simplifier(
+  const auto [operations, is_complete] = internal::simplify(
       reference, working, *deviation, controls, internal::progress_reporter(np));
-  const bool is_complete = simplifier.run();
 
   std::vector<double> bounds = deviation->face_bounds();
   for (double& bound : bounds) bound /= scale;
@@ -225,7 +224,7 @@ Certificate make_geometric_mesh(
     record = internal::Recorder(reference, working, *map, elements.input_position, compaction)
                  .record(is_feature);
   const double bound = bounds.empty() ? 0 : *std::max_element(bounds.begin(), bounds.end());
-  return Certificate(tolerance, bound, std::move(record), simplifier.operations(), !is_complete);
+  return Certificate(tolerance, bound, std::move(record), operations, !is_complete);
 }
 
 } // namespace surety

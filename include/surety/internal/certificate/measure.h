@@ -25,6 +25,9 @@
 
 #include <surety/internal/certificate/triangle_table.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace surety::internal::checker {
 
 /// The exact point start + lambda (end - start).
@@ -108,6 +111,18 @@ inline double distance_to_triangle(const Place& x, const Point& p, const Point& 
   const double w = dot(cross(first, offset.vector), normal) / area;
   if (!(v >= 0 && w >= 0 && v + w <= 1)) return nearest_side;
   return (std::min)(nearest_side, distance_to_combination(offset, first, v, second, w));
+}
+
+/// A power of two that keeps products of four lengths from over- and underflow when a mesh is very
+/// large or very small; 1, so that messages show the user's own lengths, for all others.
+inline double scale_of_products(const Triangle_table& mesh)
+{
+  double largest = 0;
+  for (Index v = 0; v < mesh.number_of_vertices(); ++v)
+    for (const double c : mesh.point(v)) largest = (std::max)(largest, std::abs(c));
+  int exponent = 0;
+  if (std::isfinite(largest)) std::frexp(largest, &exponent);
+  return std::abs(exponent) < 150 ? 1.0 : std::ldexp(1.0, -exponent);
 }
 
 } // namespace surety::internal::checker

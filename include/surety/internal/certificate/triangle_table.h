@@ -47,6 +47,12 @@ public:
   Index number_of_vertices() const { return static_cast<Index>(points_.size()); }
   Index number_of_faces() const { return static_cast<Index>(triangles_.size()); }
   const Point& point(Index v) const { return points_[v]; }
+  /// Multiplies all points by a power of two.
+  void scale(double factor)
+  {
+    for (Point& p : points_)
+      for (double& c : p) c *= factor;
+  }
   const std::array<Index, 3>& corners(Index f) const { return triangles_[f]; }
   const std::array<Index, 3>& sides(Index f) const { return sides_[f]; }
   /// Sorted by the pair of their ends.

@@ -7,6 +7,7 @@
 
 #include <surety/internal/linear.h>
 
+#include <deque>
 #include <vector>
 
 namespace surety::internal {
@@ -121,7 +122,7 @@ private:
   std::vector<Index> next_assigned_;
   std::vector<Index> first_on_face_, first_on_edge_;
   std::vector<Index> first_node_of_t_, first_node_of_m_;
-  std::vector<Node> nodes_;
+  std::deque<Node> nodes_; // grows without a copy of all that is there
   Index free_ = none;
 };
 

@@ -16,6 +16,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace surety::internal {
@@ -255,6 +256,17 @@ inline void Simplifier::try_flip(Index e)
   if (guard_) guard_->commit(disc_);
   ++operations_.flips;
   for (const Index v : disc_.ring) retry_around(v);
+}
+
+/// Runs the loop; tells the operations, and whether it came to its end. What it keeps beside M is
+/// gone when it returns.
+inline std::pair<Operations, bool> simplify(
+    const Reference& reference, Working_mesh& mesh, Deviation_policy& deviation,
+    const Simplification_controls& controls, Simplifier::Report_progress report)
+{
+  Simplifier simplifier(reference, mesh, deviation, controls, std::move(report));
+  const bool is_complete = simplifier.run();
+  return {simplifier.operations(), is_complete};
 }
 
 } // namespace surety::internal
