@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Is it linear, and how much memory does it take? Simplifies finer and finer versions of a model at
-// one tolerance. Prints CPU seconds, the exponent p of the law seconds ~ faces^p from row to row
-// and fitted over all rows, and the largest memory in use while the library works, beside the mesh
-// itself, in bytes a face: allocated by new, and as the growth of the resident size.
+// Is it linear, and how much memory does it take? Simplifies finer and finer versions of a model,
+// at one tolerance, so that the reduction grows with the size, or at a tolerance that keeps it.
+// Prints CPU seconds, the exponent p of the law seconds ~ faces^p from row to row and fitted over
+// all rows, and the largest memory in use while the library works, beside the mesh itself, in bytes
+// a face: allocated by new, and as the growth of the resident size.
 #include "child.h"
 #include "counting_allocator.h"
 #include "distances.h"
@@ -35,6 +36,7 @@ struct Settings {
   double noise = 0;
   unsigned seed = 1;
   bool verify = false;
+  bool same_reduction = false;
   Controls controls;
   unsigned cpu_limit = 1200;
 };
@@ -131,7 +133,12 @@ public:
   }
 
 private:
-  void refine() { mesh_ = settings_.flat ? split_in_four(mesh_) : smoothed_in_four(mesh_); }
+  /// The gap of a face is as the square of its size.
+  void refine()
+  {
+    mesh_ = settings_.flat ? split_in_four(mesh_) : smoothed_in_four(mesh_);
+    if (settings_.same_reduction) tolerance_ /= 4;
+  }
 
   void run_size()
   {
@@ -179,6 +186,9 @@ int run(int argc, char* argv[])
   program.add_option("--noise", settings.noise, "Random shifts, as a fraction of the tolerance")
       ->capture_default_str();
   program.add_option("--seed", settings.seed, "Of the random shifts")->capture_default_str();
+  program.add_flag(
+      "--same-reduction", settings.same_reduction,
+      "Divide the tolerance by four whenever faces are split in four");
   program.add_flag("--verify", settings.verify, "Also measure the true distance");
   parse_or_exit(program, argc, argv);
 
