@@ -381,33 +381,6 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Repeated, testing::ValuesIn(shapes()), [](const
 
 // ---- at random ----
 
-/// The same vertices, other faces: random flips of interior edges that leave both faces with area
-/// and turn the surface by less than a right angle.
-Mesh flipped_at_random(Mesh mesh, std::size_t tries, std::uint64_t seed)
-{
-  Random random(seed);
-  for (; tries > 0; --tries) {
-    const Mesh::Halfedge_index h(Mesh::size_type(random.below(mesh.number_of_halfedges())));
-    const auto o = mesh.opposite(h);
-    if (mesh.is_border(h) || mesh.is_border(o)) continue;
-    const Vertex a = mesh.source(h), b = mesh.target(h), c = mesh.target(mesh.next(h)),
-                 d = mesh.target(mesh.next(o));
-    if (mesh.halfedge(c, d) != Mesh::null_halfedge()) continue;
-    const auto normal = [&](Vertex i, Vertex j, Vertex k) {
-      return CGAL::cross_product(mesh.point(j) - mesh.point(i), mesh.point(k) - mesh.point(i));
-    };
-    const Vector m = normal(c, a, d), n = normal(d, b, c), old = normal(a, b, c);
-    const auto cosine = [](const Vector& x, const Vector& y) {
-      return x * y / std::sqrt(x.squared_length() * y.squared_length());
-    };
-    if (!(cosine(m, n) > 0.1 && cosine(m, old) > 0.1 && m.squared_length() > 1e-14
-          && n.squared_length() > 1e-14))
-      continue;
-    CGAL::Euler::flip_edge(h, mesh);
-  }
-  return mesh;
-}
-
 /// Random faces are gone, as long as the rest is a surface.
 Mesh perforated(const Mesh& mesh, std::size_t holes, std::uint64_t seed)
 {

@@ -161,6 +161,27 @@ TEST(Allow_self_intersections, false_by_default_keeps_sheets_apart)
   EXPECT_GT(intersections, 0u);
 }
 
+TEST(Allow_self_intersections, false_by_default_holds_for_flips_too)
+{
+  // Rough sheets that nearly touch, where nothing but flips is allowed.
+  const auto all_vertices = CGAL::Static_boolean_property_map<Vertex, true>();
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    for (const Mesh& shape : {two_spheres(3, 0.05), two_sheets(12, 0.05)}) {
+      const Mesh input = flipped_at_random(jittered(shape, 0.015, seed), 6000, seed);
+      const Simplification s = simplified(
+          input, 0.1,
+          with::roughness_angle(180)
+              .shape_floor(infinity)
+              .flip_rounds(20)
+              .vertex_is_constrained_map(all_vertices));
+      expect_no_new_intersections(s);
+      EXPECT_GT(s.certificate.operations().flips, 1000u);
+      EXPECT_GT(refused(s, Verdict::self_intersection), 100u);
+      expect_proof(s);
+    }
+  }
+}
+
 TEST(Allow_self_intersections, leaves_what_intersects_already_in_peace)
 {
   // Two spheres that cross, and a sphere of which one vertex is pushed through the other side.
@@ -740,9 +761,11 @@ TEST(Smallest_meshes, are_left_or_lose_what_they_can)
   CGAL::make_triangle(Point(0, 0, 0), Point(0, 1, 0), Point(1, 0, 0), triangle);
   CGAL::make_tetrahedron(
       Point(0, 0, 0), Point(0, 1, 0), Point(1, 0, 0), Point(0, 0, 1), tetrahedron);
+  const auto anything_goes
+      = with::roughness_angle(180).shape_floor(infinity).allow_self_intersections(true);
   for (const Mesh& mesh : {triangle, tetrahedron}) {
     for (const double tolerance : {1e-9, 0.1, 1e9}) {
-      const Simplification s = simplified(mesh, tolerance, with::roughness_angle(180));
+      const Simplification s = simplified(mesh, tolerance, anything_goes);
       EXPECT_TRUE(have_same_faces(mesh, s.output));
       EXPECT_EQ(s.certificate.bound(), 0);
       expect_sound(s);
@@ -756,6 +779,8 @@ TEST(Smallest_meshes, are_left_or_lose_what_they_can)
         = simplified(mesh, 1e9, with::roughness_angle(180).shape_floor(infinity).corner_angle(180));
     expect_sound(s);
     expect_verified_distance(s);
+    EXPECT_EQ(
+        topological_type(simplified(mesh, 1e9, anything_goes).output), topological_type(mesh));
   }
 }
 
