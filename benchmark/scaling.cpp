@@ -9,6 +9,7 @@
 #include "counting_allocator.h"
 #include "distances.h"
 #include "models.h"
+#include "peers.h"
 #include "program.h"
 #include "refinement.h"
 #include "simplification.h"
@@ -37,6 +38,7 @@ struct Settings {
   unsigned seed = 1;
   bool verify = false;
   bool same_reduction = false;
+  bool peer = false;
   Controls controls;
   unsigned cpu_limit = 1200;
 };
@@ -76,6 +78,13 @@ void run_case(const Mesh& input, double tolerance, const Settings& settings, con
   report.set("resident_bytes_a_face", (status_bytes("VmHWM") - resident) / faces);
   report.set("faces", output.number_of_faces());
   report.set("certified_over_tolerance", certificate.bound() / tolerance);
+  if (settings.peer) {
+    Mesh theirs = input;
+    const double their_seconds
+        = cgal_lindstrom_turk().simplify(theirs, {tolerance, output.number_of_faces()});
+    report.set("lindstrom_turk_microseconds_a_face", 1e6 * their_seconds / faces);
+    report.set("over_lindstrom_turk", seconds / their_seconds);
+  }
   if (settings.verify) {
     const Distance distance = measure_distance(input, output, tolerance);
     report.set("distance_over_tolerance", distance.upper / tolerance);
@@ -189,13 +198,15 @@ int run(int argc, char* argv[])
   program.add_flag(
       "--same-reduction", settings.same_reduction,
       "Divide the tolerance by four whenever faces are split in four");
+  program.add_flag("--peer", settings.peer, "Also run CGAL's plain edge collapse to our count");
   program.add_flag("--verify", settings.verify, "Also measure the true distance");
   parse_or_exit(program, argc, argv);
 
   const Table table(
       {"model", "input_faces", "faces", "seconds", "microseconds_a_face", "exponent_from_last",
        "exponent_so_far", "bytes_a_face", "resident_bytes_a_face", "certified_over_tolerance",
-       "distance_over_tolerance", "message"});
+       "distance_over_tolerance", "lindstrom_turk_microseconds_a_face", "over_lindstrom_turk",
+       "message"});
   for (const auto& model : settings.models) Series(models.path(model), settings, table).run();
   return EXIT_SUCCESS;
 }
