@@ -13,7 +13,9 @@
 int main()
 {
   CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3> mesh;
-  CGAL::make_grid(10, 10, mesh, CGAL::Default_grid_maker<CGAL::Epick>(), true);
+  using Point = CGAL::Epick::Point_3;
+  CGAL::make_grid(
+      10, 10, mesh, [](std::size_t i, std::size_t j) { return Point(i, j, 0); }, true);
   const auto faces = mesh.number_of_faces();
   const auto certificate = surety::make_geometric_mesh(mesh, 0.01);
   std::cout << "surety " SURETY_VERSION_STRING ": " << faces << " -> " << mesh.number_of_faces()
