@@ -22,7 +22,9 @@ namespace surety {
 /// goes to the closest point of an edge of M. Between two of these *items* phi is linear, inside
 /// one closed face of M. It extends over the triangles of T by cutting them into cells with corners
 /// among the items, so that each cell has its corners in one closed face; the cells are not
-/// recorded, whoever needs them finds them again.
+/// recorded, whoever needs them finds them again. Where the crossings around a triangle wind once
+/// about a vertex of M, to which no vertex of T goes, a point inside the triangle does: an *inner
+/// item*, from which the cells about it fan out.
 struct Correspondence {
   enum class Kind : std::uint8_t { vertex, edge, face };
 
@@ -39,12 +41,21 @@ struct Correspondence {
     double lambda = 0;          ///< in [0, 1], never decreasing from s to t
   };
 
+  /// Which point inside a face of T goes to a vertex of M: (1 - lambda - mu) x_a + lambda x_b +
+  /// mu x_c, where a < b < c are the vertices of the face.
+  struct Inner {
+    std::uint32_t face = 0;    ///< of T
+    std::uint32_t vertex = 0;  ///< of M
+    double lambda = 0, mu = 0; ///< not negative, with a sum of at most 1
+  };
+
   std::vector<Image> images;                        ///< one a vertex of T
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< (s, t), s < t: edges of T with crossings,
                                                     ///< sorted, each once
   std::vector<std::uint32_t> offsets;               ///< crossings of edges[i]: from offsets[i] to
                                                     ///< offsets[i + 1]; one more than edges
   std::vector<Crossing> crossings;                  ///< along each edge from s to t
+  std::vector<Inner> inner;                         ///< sorted by face, at most one in each
   std::vector<std::array<std::uint32_t, 2>> ridges; ///< (s, t), s < t: interior edges of T that
                                                     ///< make up a curve which M keeps as a curve
 };

@@ -36,6 +36,7 @@ inline const char* to_string(Verdict verdict)
 struct Operations {
   std::size_t collapses = 0;
   std::size_t flips = 0;
+  std::size_t relocations = 0; ///< vertices moved
   std::array<std::size_t, number_of_verdicts> refused{};
 
   void refuse(Verdict verdict) { ++refused[static_cast<std::size_t>(verdict)]; }
