@@ -34,10 +34,12 @@ Certificate read_back(const std::string& text)
 Certificate example(unsigned seed = 1)
 {
   Mapped_pair pair = square_on_square(6, 0.1, seed);
+  pair.record.inner = {{seed, 3, 0.1, 0.2}, {seed + 7, 2, 1.0 / 3, 1.0 / 7}};
   pair.record.ridges = {{1, 9}, {2, 3}};
   surety::Operations operations;
   operations.collapses = 123;
   operations.flips = 45;
+  operations.relocations = 67;
   operations.refuse(surety::Verdict::deviation);
   operations.refuse(surety::Verdict::shape);
   return Certificate(0.1, std::nextafter(0.05, 1), pair.record, operations, true);
@@ -52,6 +54,7 @@ void expect_equal(const Certificate& a, const Certificate& b)
   EXPECT_EQ(a.is_cancelled(), b.is_cancelled());
   EXPECT_EQ(a.operations().collapses, b.operations().collapses);
   EXPECT_EQ(a.operations().flips, b.operations().flips);
+  EXPECT_EQ(a.operations().relocations, b.operations().relocations);
   EXPECT_EQ(a.operations().refused, b.operations().refused);
   const Correspondence &r = *a.correspondence(), &s = *b.correspondence();
   ASSERT_EQ(r.images.size(), s.images.size());
@@ -68,6 +71,13 @@ void expect_equal(const Certificate& a, const Certificate& b)
     EXPECT_EQ(r.crossings[i].a, s.crossings[i].a);
     EXPECT_EQ(r.crossings[i].b, s.crossings[i].b);
     EXPECT_TRUE(same_bits(r.crossings[i].lambda, s.crossings[i].lambda));
+  }
+  ASSERT_EQ(r.inner.size(), s.inner.size());
+  for (std::size_t i = 0; i < r.inner.size(); ++i) {
+    EXPECT_EQ(r.inner[i].face, s.inner[i].face);
+    EXPECT_EQ(r.inner[i].vertex, s.inner[i].vertex);
+    EXPECT_TRUE(same_bits(r.inner[i].lambda, s.inner[i].lambda));
+    EXPECT_TRUE(same_bits(r.inner[i].mu, s.inner[i].mu));
   }
 }
 
@@ -113,16 +123,18 @@ TEST(Certificate_file, is_the_documented_text)
   record.edges = {{0, 2}};
   record.offsets = {0, 2};
   record.crossings = {{1, 4, 0.25}, {2, 4, 0.8125}};
+  record.inner = {{3, 6, 0.25, 0.5}, {5, 1, 0, 1}};
   record.ridges = {{0, 1}};
   const std::string text = written(Certificate(0.5, 0.375, record));
   EXPECT_EQ(
       text,
-      "surety-certificate 1\n"
+      "surety-certificate 2\n"
       "tolerance 0x1p-1\n"
       "bound 0x1.8p-2\n"
       "cancelled 0\n"
       "collapses 0\n"
       "flips 0\n"
+      "relocations 0\n"
       "refused 7\n"
       "feature 0\n"
       "topology 0\n"
@@ -139,6 +151,9 @@ TEST(Certificate_file, is_the_documented_text)
       "x 0 2 2\n"
       "1 4 0x1p-2\n"
       "2 4 0x1.ap-1\n"
+      "inner 2\n"
+      "3 6 0x1p-2 0x1p-1\n"
+      "5 1 0x0p+0 0x1p+0\n"
       "ridges 1\n"
       "0 1\n"
       "end\n");
@@ -191,13 +206,15 @@ TEST(Certificate_file, bad_lines_are_named)
   record.edges = {{0, 2}, {1, 2}};
   record.offsets = {0, 2, 2};
   record.crossings = {{1, 4, 0.25}, {2, 4, 0.8125}};
+  record.inner = {{1, 3, 0.25, 0.5}, {2, 4, 0, 0.5}};
   record.ridges = {{0, 1}};
   const std::string sound = written(Certificate(0.5, 0.375, record));
   std::vector<std::string> lines;
   std::istringstream in(sound);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   const std::vector<std::pair<std::size_t, std::string>> bad
-      = {{1, "surety-certificate 2"},
+      = {{1, "surety-certificate 1"},
+         {1, "surety-certificate 3"},
          {1, "surety-certificate"},
          {1, "OFF"},
          {1, ""},
@@ -223,37 +240,54 @@ TEST(Certificate_file, bad_lines_are_named)
          {5, "collapses 99999999999999999999999"},
          {5, "collapses +1"},
          {5, "collapses 0x1"},
-         {8, "weather 3"},
-         {8, "accept 3"},
-         {8, "feature"},
-         {16, "w 7"},
-         {16, "v"},
-         {16, "v 4294967296"},
-         {16, "v -1"},
-         {16, "v 7 8"},
-         {16, "v\t7"},
-         {17, "e 5 2"},
-         {17, "e 5 5"},
-         {17, "e 5"},
-         {18, "f 3 1"},
-         {21, "x 2 0 2"},
-         {21, "x 0 4 2"},
-         {21, "x 0 2"},
-         {21, "y 0 2 2"},
-         {21, "x 0 2 4294967295"},
-         {22, "4 1 0x1p-2"},
-         {22, "1 4 0x1.8p+0"},
-         {22, "1 4 -0x1p-2"},
-         {22, "1 4"},
-         {22, "1 4 0x1p-2 1"},
-         {23, "2 4 0x1p-3"},
-         {24, "x 0 2 0"},
-         {24, "x 0 1 0"},
-         {25, "ridges -1"},
-         {26, "1 0"},
-         {26, "0 4"},
-         {27, "END"},
-         {27, "end 1"}};
+         {9, "weather 3"},
+         {9, "accept 3"},
+         {9, "feature"},
+         {17, "w 7"},
+         {17, "v"},
+         {17, "v 4294967296"},
+         {17, "v -1"},
+         {17, "v 7 8"},
+         {17, "v\t7"},
+         {18, "e 5 2"},
+         {18, "e 5 5"},
+         {18, "e 5"},
+         {19, "f 3 1"},
+         {22, "x 2 0 2"},
+         {22, "x 0 4 2"},
+         {22, "x 0 2"},
+         {22, "y 0 2 2"},
+         {22, "x 0 2 4294967295"},
+         {23, "4 1 0x1p-2"},
+         {23, "1 4 0x1.8p+0"},
+         {23, "1 4 -0x1p-2"},
+         {23, "1 4"},
+         {23, "1 4 0x1p-2 1"},
+         {24, "2 4 0x1p-3"},
+         {25, "x 0 2 0"},
+         {25, "x 0 1 0"},
+         {7, "relocations -1"},
+         {7, "refused 7"},
+         {26, "inner x"},
+         {26, "ridges 1"},
+         {26, "inner 4294967296"},
+         {27, "1 3 0x1p-2"},
+         {27, "1 3 0x1p-2 0x1p-2 0"},
+         {27, "-1 3 0x1p-2 0x1p-2"},
+         {27, "1 -3 0x1p-2 0x1p-2"},
+         {27, "1 3 -0x1p-2 0x1p-2"},
+         {27, "1 3 0x1p-2 -0x1p-2"},
+         {27, "1 3 0x1p-1 0x1.0000000000002p-1"},
+         {27, "1 3 0x1.0000000000001p+0 0x0p+0"},
+         {27, "1 3 0.25 0x1p-2"},
+         {27, "1 3 nan 0x1p-2"},
+         {28, "1 4 0x0p+0 0x1p-1"},
+         {28, "0 4 0x0p+0 0x1p-1"},
+         {29, "ridges -1"},
+         {30, "1 0"},
+         {30, "0 4"},
+         {31, "END"},
+         {31, "end 1"}};
   for (const auto& [line, replacement] : bad) {
     std::string text;
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -270,11 +304,12 @@ TEST(Certificate_file, bad_lines_are_named)
 
 TEST(Certificate_file, huge_counts_do_not_allocate)
 {
-  const std::string start = "surety-certificate 1\ntolerance 0x1p-1\nbound 0x1p-2\ncancelled 0\n"
-                            "collapses 0\nflips 0\nrefused 0\n";
-  expect_refused_at_line(9, start + "images 4294967295\n");
-  expect_refused_at_line(11, start + "images 1\nv 0\nedges 4294967295\n");
-  expect_refused_at_line(8, start + std::string(100'000, 'x'));
+  const std::string start = "surety-certificate 2\ntolerance 0x1p-1\nbound 0x1p-2\ncancelled 0\n"
+                            "collapses 0\nflips 0\nrelocations 0\nrefused 0\n";
+  expect_refused_at_line(10, start + "images 4294967295\n");
+  expect_refused_at_line(12, start + "images 1\nv 0\nedges 4294967295\n");
+  expect_refused_at_line(13, start + "images 1\nv 0\nedges 0\ninner 4294967295\n");
+  expect_refused_at_line(9, start + std::string(100'000, 'x'));
   expect_refused_at_line(1, std::string(100'000, '\0'));
 }
 
@@ -326,6 +361,12 @@ TEST(Certificate_file, records_that_cannot_be_read_back_are_not_written)
   for (const double length : {-1.0, -0.0, double(NAN), double(INFINITY)}) {
     EXPECT_THROW(written(Certificate(length, 0.5, record)), surety::Invalid_input);
     EXPECT_THROW(written(Certificate(1, length, record)), surety::Invalid_input);
+  }
+  for (const surety::Correspondence::Inner& inner : std::initializer_list<Correspondence::Inner>{
+           {9, 0, NAN, 0}, {9, 0, 0, NAN}, {9, 0, 0, -1}, {9, 0, 0.75, 0.5}, {0, 0, 0, 0}}) {
+    Correspondence other = record;
+    other.inner.push_back(inner);
+    EXPECT_THROW(written(Certificate(1, 0.5, other)), surety::Invalid_input);
   }
   record.crossings[0].lambda = NAN;
   EXPECT_THROW(written(Certificate(1, 0.5, record)), surety::Invalid_input);

@@ -43,6 +43,14 @@ inline std::string crossing_defect(const Correspondence::Crossing& crossing, dou
   return crossing.lambda >= previous ? "" : "lambda decreases along the edge";
 }
 
+/// What is wrong with an inner item by itself; empty if nothing. The sum is rounded: what this
+/// means for the place of the item is said in measure.h.
+inline std::string inner_defect(const Correspondence::Inner& inner)
+{
+  if (!(inner.lambda >= 0 && inner.mu >= 0)) return "lambda or mu is not a number or negative";
+  return inner.lambda + inner.mu <= 1 ? "" : "lambda + mu exceeds 1";
+}
+
 /// What is wrong with an edge of T as a name; empty if nothing.
 inline std::string edge_name_defect(const Vertex_pair& edge, std::size_t vertices)
 {
@@ -84,18 +92,44 @@ inline std::string crossings_defect(const Correspondence& record)
   return "";
 }
 
+constexpr const char* inner_order_defect = "inner items are not sorted by face, one in each";
+
+inline std::string inner_items_defect(const Correspondence& record)
+{
+  for (std::size_t i = 0; i < record.inner.size(); ++i) {
+    std::string problem = inner_defect(record.inner[i]);
+    if (problem.empty() && i > 0 && record.inner[i - 1].face >= record.inner[i].face) {
+      problem = inner_order_defect;
+    }
+    if (!problem.empty()) {
+      return "inner item of input face " + std::to_string(record.inner[i].face) + ": " + problem;
+    }
+  }
+  return "";
+}
+
+inline bool has_too_many_items(const Correspondence& record)
+{
+  std::size_t left = none;
+  for (const std::size_t number :
+       {record.images.size(), record.crossings.size(), record.inner.size()}) {
+    if (number >= left) return true;
+    left -= number;
+  }
+  return false;
+}
+
 /// What is wrong with the record by itself; empty if nothing.
 inline std::string record_defect(const Correspondence& record)
 {
-  if (record.images.size() >= none || record.crossings.size() >= none - record.images.size()) {
-    return "there are more items than indices";
-  }
+  if (has_too_many_items(record)) return "there are more items than indices";
   for (std::size_t v = 0; v < record.images.size(); ++v) {
     const std::string problem = image_defect(record.images[v]);
     if (!problem.empty()) return "image of input vertex " + std::to_string(v) + ": " + problem;
   }
   std::string problem = offsets_defect(record);
   if (problem.empty()) problem = crossings_defect(record);
+  if (problem.empty()) problem = inner_items_defect(record);
   if (!problem.empty()) return problem;
   for (const Vertex_pair& ridge : record.ridges) {
     problem = edge_name_defect(ridge, record.images.size());

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The text format of certificate files, version 1. One record a line, words separated by one space,
+// The text format of certificate files, version 2. One record a line, words separated by one space,
 // numbers exact: integers in decimal, reals as C's hexadecimal floating-point ("%a").
 //
-//   surety-certificate 1
+//   surety-certificate 2
 //   tolerance REAL               a length
 //   bound REAL
 //   cancelled 0|1
 //   collapses N                  operations performed
 //   flips N
+//   relocations N
 //   refused N                    operations refused: N lines "REASON COUNT"
 //   ...
 //   images N                     N lines, one a vertex of the input in the order of its file:
@@ -19,6 +20,9 @@
 //   x S T K                      followed by K lines, the crossings from S to T:
 //   A B LAMBDA                   the edge (A, B) of the output, A < B, at (1 - LAMBDA) S + LAMBDA T
 //   ...
+//   inner N                      N lines, points in faces of the input that go to vertices of the
+//   F V LAMBDA MU                output, V: (1 - LAMBDA - MU) A + LAMBDA B + MU C, where A < B < C
+//                                are the vertices of face F; F increases from line to line
 //   ridges N                     N lines, edges (S, T) of the input, S < T
 //   S T
 //   end
@@ -42,7 +46,7 @@
 
 namespace surety::internal::checker {
 
-constexpr unsigned text_format_version = 1;
+constexpr unsigned text_format_version = 2;
 
 /// Collects text and hands it to a stream in large pieces.
 class Text_writer
@@ -110,6 +114,7 @@ inline void write_text(std::ostream& out, const Header& header, const Correspond
   writer.line("cancelled", header.cancelled);
   writer.line("collapses", header.operations.collapses);
   writer.line("flips", header.operations.flips);
+  writer.line("relocations", header.operations.relocations);
   writer.line("refused", number_of_verdicts - 1);
   for (std::size_t i = 1; i < number_of_verdicts; ++i) {
     writer.line(surety::to_string(static_cast<Verdict>(i)), header.operations.refused[i]);
@@ -135,6 +140,10 @@ inline void write_text(std::ostream& out, const Header& header, const Correspond
     for (Index k = first; k < last; ++k) {
       writer.line(record.crossings[k].a, record.crossings[k].b, record.crossings[k].lambda);
     }
+  }
+  writer.line("inner", record.inner.size());
+  for (const auto& inner : record.inner) {
+    writer.line(inner.face, inner.vertex, inner.lambda, inner.mu);
   }
   writer.line("ridges", record.ridges.size());
   for (const Vertex_pair& ridge : record.ridges) writer.line(ridge[0], ridge[1]);

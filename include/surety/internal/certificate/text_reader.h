@@ -117,6 +117,7 @@ public:
     read_header(header);
     read_images(record);
     read_crossings(record);
+    read_inner(record);
     read_ridges(record);
     lines_.advance();
     lines_.keyword("end");
@@ -168,6 +169,7 @@ private:
     header.cancelled = cancelled == 1;
     header.operations.collapses = count<std::size_t>("collapses");
     header.operations.flips = count<std::size_t>("flips");
+    header.operations.relocations = count<std::size_t>("relocations");
     for (unsigned left = count<unsigned>("refused"); left > 0; --left) read_refusal(header);
   }
 
@@ -248,6 +250,25 @@ private:
       previous = crossing.lambda;
       record.crossings.push_back(crossing);
     }
+  }
+
+  void read_inner(Correspondence& record)
+  {
+    const Index number = count<Index>("inner");
+    reserve(record.inner, number);
+    for (Index i = 0; i < number; ++i) {
+      lines_.advance();
+      Correspondence::Inner inner;
+      inner.face = lines_.integer();
+      inner.vertex = lines_.integer();
+      inner.lambda = lines_.real();
+      inner.mu = lines_.real();
+      lines_.expect_end();
+      require(inner_defect(inner));
+      if (i > 0 && record.inner.back().face >= inner.face) lines_.fail(inner_order_defect);
+      record.inner.push_back(inner);
+    }
+    require(has_too_many_items(record) ? "there are too many items" : "");
   }
 
   void read_ridges(Correspondence& record)
