@@ -20,10 +20,11 @@ Triangle_table table(const surety::test::Mesh& mesh)
   return read_triangles(mesh, get(CGAL::vertex_point, mesh), "mesh");
 }
 
-/// One item on every element of a complex.
+/// One item on every element of a complex, and one more on every vertex, to be an inner item.
 struct All_items {
   Triangle_table mesh;
   Items items{mesh};
+  Index elements = 0;
 
   explicit All_items(const surety::test::Mesh& surface) : mesh(table(surface))
   {
@@ -31,15 +32,19 @@ struct All_items {
     for (Index v = 0; v < mesh.number_of_vertices(); ++v) items.add({Kind::vertex, v, 0});
     for (const auto& e : mesh.edges()) items.add({Kind::edge, e.a, e.b});
     for (Index f = 0; f < mesh.number_of_faces(); ++f) items.add({Kind::face, f, 0});
+    elements = items.size();
+    for (Index v = 0; v < mesh.number_of_vertices(); ++v) items.add({Kind::vertex, v, 0});
   }
+
+  Index inner(Index v) const { return elements + v; }
 
   bool are_adjacent(Index i, Index j) const { return items.common_face(i, j, j) != none; }
 
   /// Vertices and edges are favoured: on faces all is easy.
   Index random_item(Random& random) const
   {
-    const Index faceless = items.size() - mesh.number_of_faces();
-    return Index(random.below(random.unit() < 0.15 ? items.size() : faceless));
+    const Index faceless = elements - mesh.number_of_faces();
+    return Index(random.below(random.unit() < 0.15 ? elements : faceless));
   }
 
   std::vector<Index> random_walk(std::size_t length, Random& random) const
@@ -74,11 +79,17 @@ bool can_be_cut(const Items& items, const std::vector<Index>& polygon)
   return can[0][n - 1];
 }
 
-/// The cells have their items in their faces, and the polygon as their boundary.
+/// The cells have their items in their faces, and the polygon as their boundary, and their number
+/// is that of a triangulation of the polygon, with a corner inside or without.
 void expect_triangulation(
-    const Items& items, const std::vector<Index>& polygon, const std::vector<Cell>& cells)
+    const Items& items, const std::vector<Index>& polygon, const std::vector<Cell>& cells,
+    Index inner = none)
 {
-  ASSERT_EQ(cells.size() + 2, polygon.size());
+  const auto has_inner = [&](const Cell& cell) {
+    return std::count(cell.items.begin(), cell.items.end(), inner) > 0;
+  };
+  const bool uses_inner = std::any_of(cells.begin(), cells.end(), has_inner);
+  ASSERT_EQ(cells.size() + (uses_inner ? 0 : 2), polygon.size());
   std::map<std::pair<Index, Index>, int> boundary;
   const auto add
       = [&](Index i, Index j, int sign) { boundary[std::minmax(i, j)] += i < j ? sign : -sign; };
@@ -94,6 +105,35 @@ void expect_triangulation(
   for (const auto& [ends, count] : boundary) {
     EXPECT_TRUE(count == 0 || ends.first == ends.second);
   }
+}
+
+/// Whether there is a triangulation with a corner c inside. Its neighbours go once around the
+/// polygon; a step from one to the next needs a face with c, and a triangulation of what it cuts
+/// off. Steps are sought on the polygon taken twice, from every corner around to itself.
+bool can_be_cut_around(const Items& items, const std::vector<Index>& polygon, Index c)
+{
+  const std::size_t n = polygon.size();
+  const auto is_step = [&](std::size_t i, std::size_t j) {
+    if (items.common_face(c, polygon[i % n], polygon[j % n]) == none) return false;
+    if (j == i + 1) return true;
+    std::vector<Index> cut_off;
+    for (std::size_t k = i; k <= j; ++k) cut_off.push_back(polygon[k % n]);
+    return can_be_cut(items, cut_off);
+  };
+  std::vector<std::vector<bool>> step(n, std::vector<bool>(n, false));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t length = 1; length < n; ++length) step[i][length] = is_step(i, i + length);
+  for (std::size_t first = 0; first < n; ++first) {
+    std::vector<bool> reached(n + 1, false);
+    reached[0] = true;
+    for (std::size_t to = 1; to <= n; ++to) {
+      for (std::size_t from = 0; from < to && !reached[to]; ++from) {
+        reached[to] = reached[from] && to - from < n && step[(first + from) % n][to - from];
+      }
+    }
+    if (reached[n]) return true;
+  }
+  return false;
 }
 
 class Walk : public testing::TestWithParam<unsigned>
@@ -112,7 +152,7 @@ TEST_P(Walk, cutter_agrees_with_an_exhaustive_search)
     for (int i = 0; i < 300; ++i) {
       const auto polygon = all.random_walk(3 + random.below(14), random);
       std::vector<surety::internal::checker::Cell> cells;
-      const Cutting answer = cutter.cut(polygon, cells);
+      const Cutting answer = cutter.cut(polygon, none, cells);
       ASSERT_EQ(answer == Cutting::done, can_be_cut(all.items, polygon));
       ASSERT_NE(answer, Cutting::too_large);
       if (answer == Cutting::done) expect_triangulation(all.items, polygon, cells);
@@ -121,6 +161,35 @@ TEST_P(Walk, cutter_agrees_with_an_exhaustive_search)
   }
   EXPECT_GT(cut, 100u);
   EXPECT_GT(refused, 100u);
+}
+
+TEST_P(Walk, cutter_with_an_inner_item_agrees_with_an_exhaustive_search)
+{
+  using namespace surety::test;
+  const std::vector<Mesh> surfaces = {cube(), icosphere(0), grid(2), torus(4, 4), cylinder(4, 1)};
+  surety::test::Random random(GetParam());
+  std::size_t around = 0, only_around = 0, refused = 0;
+  for (const Mesh& surface : surfaces) {
+    const All_items all(surface);
+    Polygon_cutter<Items> cutter(all.items);
+    for (int i = 0; i < 1500; ++i) {
+      const auto polygon = all.random_walk(3 + random.below(10), random);
+      const Index inner = all.inner(Index(random.below(all.mesh.number_of_vertices())));
+      std::vector<surety::internal::checker::Cell> cells;
+      const Cutting answer = cutter.cut(polygon, inner, cells);
+      const bool can_go_around = can_be_cut_around(all.items, polygon, inner);
+      const bool can_go_without = can_be_cut(all.items, polygon);
+      ASSERT_NE(answer, Cutting::too_large);
+      ASSERT_EQ(answer == Cutting::done, can_go_around || can_go_without);
+      if (answer == Cutting::done) expect_triangulation(all.items, polygon, cells, inner);
+      around += can_go_around;
+      only_around += can_go_around && !can_go_without;
+      refused += answer != Cutting::done;
+    }
+  }
+  EXPECT_GT(around, 20u);
+  EXPECT_GT(only_around, 5u);
+  EXPECT_GT(refused, 50u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Walk, testing::Range(0u, 20u));
@@ -152,8 +221,57 @@ TEST(Polygon_cutter, undoes_an_ear_at_a_vertex_that_was_a_mistake)
     const All_items all(wheel(n));
     const auto polygon = around_the_hub(n);
     std::vector<Cell> cells;
-    ASSERT_EQ(Polygon_cutter<Items>(all.items).cut(polygon, cells), Cutting::done);
+    ASSERT_EQ(Polygon_cutter<Items>(all.items).cut(polygon, none, cells), Cutting::done);
     expect_triangulation(all.items, polygon, cells);
+  }
+}
+
+/// The rim of a wheel, `times` around.
+std::vector<Index> rim(Index n, Index times)
+{
+  std::vector<Index> polygon;
+  for (Index k = 0; k < n * times; ++k) polygon.push_back(1 + k % n);
+  return polygon;
+}
+
+TEST(Polygon_cutter, fans_a_rim_from_an_inner_item_at_the_hub)
+{
+  for (const Index n : {3u, 4u, 6u, 2'000u}) {
+    const All_items all(wheel(n));
+    std::vector<Cell> cells;
+    Polygon_cutter<Items> cutter(all.items);
+    ASSERT_EQ(cutter.cut(rim(n, 1), all.inner(0), cells), Cutting::done);
+    expect_triangulation(all.items, rim(n, 1), cells, all.inner(0));
+    cells.clear();
+    EXPECT_NE(cutter.cut(rim(n, 1), none, cells), Cutting::done);
+    EXPECT_NE(cutter.cut(rim(n, 1), all.inner(1), cells), Cutting::done);
+    EXPECT_TRUE(cells.empty());
+  }
+}
+
+TEST(Polygon_cutter, a_rim_twice_around_is_cut_but_covers_twice)
+{
+  const All_items all(wheel(5));
+  std::vector<Cell> cells;
+  ASSERT_EQ(Polygon_cutter<Items>(all.items).cut(rim(5, 2), all.inner(0), cells), Cutting::done);
+  expect_triangulation(all.items, rim(5, 2), cells, all.inner(0));
+  EXPECT_EQ(degree_defect(all.items, cells), "output face 0 is covered 2 times instead of once");
+}
+
+TEST(Polygon_cutter, one_inner_item_does_not_serve_two_vertices)
+{
+  // The border of a grid winds about its inner vertices, and there is an item at one of them.
+  for (const std::size_t n : {2, 3}) {
+    const All_items all(surety::test::grid(n));
+    std::vector<Index> border;
+    const auto at = [&](std::size_t i, std::size_t j) { return Index(i * (n + 1) + j); };
+    for (std::size_t k = 0; k < n; ++k) border.push_back(at(k, 0));
+    for (std::size_t k = 0; k < n; ++k) border.push_back(at(n, k));
+    for (std::size_t k = n; k > 0; --k) border.push_back(at(k, n));
+    for (std::size_t k = n; k > 0; --k) border.push_back(at(0, k));
+    std::vector<Cell> cells;
+    const Cutting answer = Polygon_cutter<Items>(all.items).cut(border, all.inner(at(1, 1)), cells);
+    EXPECT_EQ(answer, n == 2 ? Cutting::done : Cutting::impossible);
   }
 }
 
@@ -162,13 +280,13 @@ TEST(Polygon_cutter, gives_up_beyond_its_limits_without_a_wrong_answer)
   const All_items all(wheel(450));
   std::vector<Cell> cells;
   Polygon_cutter<Items> cutter(all.items);
-  EXPECT_EQ(cutter.cut(around_the_hub(450), cells), Cutting::too_large);
+  EXPECT_EQ(cutter.cut(around_the_hub(450), none, cells), Cutting::too_large);
   EXPECT_TRUE(cells.empty());
 
   const All_items small(wheel(300));
   int done = 0;
   Polygon_cutter<Items> tired(small.items);
-  while (tired.cut(around_the_hub(300), cells) == Cutting::done && done < 100) ++done;
+  while (tired.cut(around_the_hub(300), none, cells) == Cutting::done && done < 100) ++done;
   EXPECT_GT(done, 0);
   EXPECT_LT(done, 100); // the work of one check is limited
 }
@@ -182,7 +300,7 @@ TEST(Polygon_cutter, takes_linear_time_on_a_long_polygon)
   std::vector<Index> polygon = {0};
   for (int i = 0; i < 500'000; ++i) polygon.insert(polygon.end(), {spoke, next});
   std::vector<Cell> cells;
-  EXPECT_EQ(Polygon_cutter<Items>(all.items).cut(polygon, cells), Cutting::done);
+  EXPECT_EQ(Polygon_cutter<Items>(all.items).cut(polygon, none, cells), Cutting::done);
   EXPECT_EQ(cells.size(), polygon.size() - 2);
 }
 

@@ -7,18 +7,20 @@
 // Theorem. If all steps of check() succeed, H(T, M) <= bound, and each point of face K of M lies
 // within face_bounds[K] of T.
 // Proof. Let P_t be the polygon of items around a triangle t of T, as an abstract convex polygon,
-// cut into the cells found, and S the union of all P_t, glued along the edges of T; two neighbours
-// agree about the items on their common edge. Let G: S -> T and F: S -> M be linear on each cell,
-// with G(i) = x_i, the exact place of item i, and F(i) = y_i, a point of its closed element with
-// |x_i - y_i| <= d_i.
+// cut into the cells found, with one corner in the interior if they use the inner item of t, and S
+// the union of all P_t, glued along the edges of T; two neighbours agree about the items on their
+// common edge. Let G: S -> T and F: S -> M be linear on each cell, with G(i) = x_i, the exact place
+// of item i, and F(i) = y_i, a point of its closed element with |x_i - y_i| <= d_i.
 //   F goes into M: the corners of a cell lie in one closed face, which is convex.
 //   |F - G| <= max d_i: on a cell, F - G is linear, and the norm convex.
 //   G is onto: on P_t it maps the boundary around the boundary of t once, without turning back, as
-//   lambda does not decrease along an edge; so it has degree 1 there. Cells may well be degenerate:
-//   several items at one place, all items of a cell on one edge of t, even t itself without area.
+//   lambda does not decrease along an edge; so it has degree 1 there, and it does not leave t, as
+//   the place of an inner item is in t. Cells may well be degenerate: several items at one place,
+//   all items of a cell on one edge of t, even t itself without area.
 //   F is onto: degree.h; and a point of the open face K of M is covered by a cell of K.
 // A point of T is G(s), and F(s) a point of M within the bound; a point of M is F(s), and G(s) a
 // point of T within the bound. The same argument on the border edges and the ridge edges: curves.h.
+// No item needs to be at distance 0: the vertices of M need not be points of T.
 #ifndef SURETY_INTERNAL_CERTIFICATE_CHECKER_H
 #define SURETY_INTERNAL_CERTIFICATE_CHECKER_H
 
@@ -43,8 +45,9 @@ public:
   /// `reason()` says why. The border rule comes before the degree, which is not defined without it.
   bool check(double tolerance, double recorded_bound)
   {
-    return check_structure() && resolve_images() && resolve_crossings() && check_edges()
-        && measure(tolerance) && check_recorded(recorded_bound, tolerance) && cut_triangles()
+    return check_structure() && resolve_images() && resolve_crossings() && resolve_inner()
+        && check_edges() && measure(tolerance) && measure_inner(tolerance)
+        && check_recorded(recorded_bound, tolerance) && cut_triangles()
         && accept("border", Border_check(input_, items_).defect())
         && accept("degree", degree_defect(items_, cells_)) && check_ridges();
   }
@@ -94,7 +97,7 @@ private:
 
   bool resolve_images()
   {
-    items_.reserve(record_.images.size() + record_.crossings.size());
+    items_.reserve(record_.images.size() + record_.crossings.size() + record_.inner.size());
     for (Index v = 0; v < input_.number_of_vertices(); ++v) {
       if (!items_.add(record_.images[v])) {
         return refuse(
@@ -144,6 +147,23 @@ private:
         invariant,
         std::string(problem) + " (input edge " + to_string(edge.name()) + ", output edge "
             + to_string(Vertex_pair{crossing.a, crossing.b}) + ")");
+  }
+
+  bool resolve_inner()
+  {
+    first_inner_ = items_.size();
+    for (const auto& inner : record_.inner) {
+      const char* problem = "";
+      if (inner.face >= input_.number_of_faces()) problem = "this face does not exist";
+      if (!items_.add(inner)) problem = "it does not go to a vertex of the output";
+      if (*problem != 0) return refuse("structure", name_of_inner(inner) + ": " + problem);
+    }
+    return true;
+  }
+
+  static std::string name_of_inner(const Correspondence::Inner& inner)
+  {
+    return "the inner item of input face " + std::to_string(inner.face);
   }
 
   /// I1, consecutive items share a closed face.
@@ -206,6 +226,27 @@ private:
       distance = distance_to_triangle(
           place, output_.point(t[0]), output_.point(t[1]), output_.point(t[2]));
     }
+    return accept_distance(distance, tolerance);
+  }
+
+  /// The corners of a face with an inner item are taken in the order of their numbers.
+  bool measure_inner(double tolerance)
+  {
+    for (const auto& inner : record_.inner) {
+      auto corners = input_.corners(inner.face);
+      std::sort(corners.begin(), corners.end());
+      const Inner_place place
+          = {{input_.point(corners[0]), input_.point(corners[1]), input_.point(corners[2])},
+             inner.lambda,
+             inner.mu};
+      if (!accept_distance(distance_to_vertex(place, output_.point(inner.vertex)), tolerance))
+        return refuse("I2", name_of_inner(inner) + too_far(tolerance));
+    }
+    return true;
+  }
+
+  bool accept_distance(double distance, double tolerance)
+  {
     distances_.push_back(distance);
     bound_ = (std::max)(bound_, distance);
     return distance <= tolerance; // false for NaN
@@ -235,12 +276,17 @@ private:
   /// I3, every triangle of T can be cut into cells.
   bool cut_triangles()
   {
-    cells_.reserve(input_.number_of_faces() + 2 * record_.crossings.size());
+    cells_.reserve(
+        input_.number_of_faces() + 2 * (record_.crossings.size() + record_.inner.size()));
     Polygon_cutter<Items> cutter(items_);
     std::vector<Index> polygon;
+    Index next_inner = 0;
     for (Index t = 0; t < input_.number_of_faces(); ++t) {
       collect_polygon(t, polygon);
-      const Cutting cutting = cutter.cut(polygon, cells_);
+      const bool has_inner
+          = next_inner < record_.inner.size() && record_.inner[next_inner].face == t;
+      const Index inner = has_inner ? first_inner_ + next_inner++ : none;
+      const Cutting cutting = cutter.cut(polygon, inner, cells_);
       if (cutting == Cutting::done) continue;
       const auto& v = input_.corners(t);
       return refuse(
@@ -303,6 +349,7 @@ private:
   const Correspondence& record_;
   Items items_;
   std::vector<Index> first_crossing_; ///< item of the first crossing of each edge of T
+  Index first_inner_ = 0;             ///< item of the first inner item
   std::vector<double> distances_;     ///< of each item
   std::vector<Cell> cells_;
   double bound_ = std::numeric_limits<double>::infinity();

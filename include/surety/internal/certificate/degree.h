@@ -3,17 +3,17 @@
 // Invariant I4: the map covers every face of M once.
 //
 // F, linear on each cell, maps the complex S of all cells into M: cells of one triangle of T are
-// glued along the diagonals of their polygon, triangles of T along their edges. M is an abstract
-// simplicial complex (two of its faces meet in a vertex, an edge or not at all), and an item stands
-// for a point of its closed element. Take F(S) as a singular chain, the sum of the affine simplices
-// F|cell, each in its face. A segment of S inside T lies in two cells, with opposite orientation;
-// if their faces K and K' differ, both its items lie in K and in K', hence so does its image, which
-// is then the same simplex for both: it cancels. What remains of the boundary of F(S) comes from
-// borders of T, and lies in the border of M, because of the border rule (curves.h). So F(S) is a
-// cycle relative to the border, and at an inner point p of a face K its local degree in
-// H_2(M, M - p) = Z is defined and is the same for all p in K. If it is not zero, F covers p:
-// otherwise F(S) would be a chain in M - p. If it is 1 for every face, F is onto, components and
-// closed surfaces included.
+// glued along the diagonals of their polygon and the spokes of its inner item, if they use it, and
+// triangles of T along their edges. M is an abstract simplicial complex (two of its faces meet in a
+// vertex, an edge or not at all), and an item stands for a point of its closed element. Take F(S)
+// as a singular chain, the sum of the affine simplices F|cell, each in its face. A segment of S
+// inside T, diagonal, spoke or side, lies in two cells, with opposite orientation; if their faces K
+// and K' differ, both its items lie in K and in K', hence so does its image, which is then the same
+// simplex for both: it cancels. What remains of the boundary of F(S) comes from borders of T, and
+// lies in the border of M, because of the border rule (curves.h). So F(S) is a cycle relative to
+// the border, and at an inner point p of a face K its local degree in H_2(M, M - p) = Z is defined
+// and is the same for all p in K. If it is not zero, F covers p: otherwise F(S) would be a chain in
+// M - p. If it is 1 for every face, F is onto, components and closed surfaces included.
 //
 // The degree is a homotopy invariant: we may move every item inside its closed element, since this
 // keeps cells in their faces, simplices shared by two cells shared, and borders in borders. Items

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The items of a record, resolved: every image and every crossing with the element of M that it
-// lies in, by index. Items of vertices come first, those of crossings follow in the order of the
-// record.
+// The items of a record, resolved: every image, crossing and inner item with the element of M that
+// it lies in, by index. Items of vertices come first, then those of crossings, then the inner ones,
+// in the order of the record.
 #ifndef SURETY_INTERNAL_CERTIFICATE_ITEMS_H
 #define SURETY_INTERNAL_CERTIFICATE_ITEMS_H
 
@@ -42,6 +42,10 @@ public:
     return add_on_edge(image.a, image.b);
   }
   bool add(const Correspondence::Crossing& crossing) { return add_on_edge(crossing.a, crossing.b); }
+  bool add(const Correspondence::Inner& inner)
+  {
+    return add(Kind::vertex, inner.vertex, inner.vertex < output_.number_of_vertices());
+  }
 
   bool is_at_vertex(Index i) const { return items_[i].kind == Kind::vertex; }
 

@@ -15,7 +15,16 @@
 // that is 13 e m; the test v + w <= 1 is made in floating point, so the exact sum may reach 1 + e
 // and y lie outside by e m: 14 e m. Second-order terms and the rounding of m itself do not reach
 // 16 e m, or 16 sqrt(3) e m < 28 e m for the vector; we add 32 e m, and nothing where x and y are
-// stored points. The norm of a computed vector: 3 e relative (square 1, two sums 2, halved by the
+// stored points.
+// An inner item is the exact point x = a + lambda (b - a) + mu (c - a), and y a stored vertex:
+//   x - y = (a - y) + lambda (b - a) + mu (c - a),
+// with three differences. In each coordinate, first order, and with lambda + mu <= 1:
+//   a - y: 1;  the two products, each with its difference: 2 lambda + 2 mu <= 2;
+//   the sum of the first two terms, at most 2 m: 2;  that of all three, at most 2 m: 2,
+// that is 7 e m. The test lambda + mu <= 1 is made in floating point, so the exact sum s may reach
+// 1 + e. If it exceeds 1, the item stands for x' = a + (x - a) / s, a point of the triangle; as x -
+// x' = (s - 1) (x' - a), this is e m more: 8 e m, and 32 e m for the vector is enough again.
+// The norm of a computed vector: 3 e relative (square 1, two sums 2, halved by the
 // root, root 1, rounded up), then a sum and a product: 5 e < 8 e.
 // Underflow: a product errs by at most 2^-1074, and by 2^-1022 where subnormals are flushed; nine
 // of them below a root by less than 2^-508; we add 2^-500, unless x and y are the same stored
@@ -87,6 +96,23 @@ inline double distance_to_combination(
   const double m = (std::max)({x.magnitude, largest_coordinate(first), largest_coordinate(second)});
   Point d;
   for (int i = 0; i < 3; ++i) d[i] = x.vector[i] - (v * first[i] + w * second[i]);
+  return rounded_up_length(d, 0x1p-47 * m);
+}
+
+/// The exact point a + lambda (b - a) + mu (c - a) of a triangle with the corners a, b, c.
+struct Inner_place {
+  std::array<Point, 3> corners;
+  double lambda = 0, mu = 0;
+};
+
+inline double distance_to_vertex(const Inner_place& x, const Point& y)
+{
+  const auto& [a, b, c] = x.corners;
+  const Point offset = difference(a, y), first = difference(b, a), second = difference(c, a);
+  const double m = (std::max)(
+      {largest_coordinate(offset), largest_coordinate(first), largest_coordinate(second)});
+  Point d;
+  for (int i = 0; i < 3; ++i) d[i] = offset[i] + x.lambda * first[i] + x.mu * second[i];
   return rounded_up_length(d, 0x1p-47 * m);
 }
 
