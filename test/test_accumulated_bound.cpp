@@ -187,10 +187,10 @@ public:
   explicit Stage(const Mesh& mesh)
     : elements_(mesh, get(CGAL::vertex_point, mesh)),
       connectivity_(surety::internal::read_connectivity(mesh, elements_)),
-      reference_(surety::internal::make_reference(
-          elements_, get(CGAL::vertex_point, mesh), 1.0, connectivity_)),
+      reference_(surety::internal::make_reference(elements_, points_of(mesh), connectivity_)),
       working_(surety::internal::make_working_mesh(
-          elements_, surety::find_features(mesh, with::feature_angle(180)), connectivity_))
+          elements_, surety::find_features(mesh, with::feature_angle(180)), connectivity_,
+          points_of(mesh), journal_))
   {}
 
   Disc collapse_onto(Index q) const
@@ -222,6 +222,10 @@ public:
   }
 
 private:
+  std::vector<surety::internal::Vector> points_of(const Mesh& mesh) const
+  {
+    return surety::internal::points_in_order(elements_, get(CGAL::vertex_point, mesh), 1.0);
+  }
   /// The index that a vertex of the mesh has in the flat structures.
   Index inside(Index v) const
   {
@@ -241,6 +245,7 @@ private:
   surety::internal::Elements<Mesh> elements_;
   Working_mesh::Connectivity connectivity_;
   surety::internal::Reference reference_;
+  surety::internal::Journal journal_;
   Working_mesh working_;
 };
 

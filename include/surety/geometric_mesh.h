@@ -49,13 +49,32 @@ Simplification_controls simplification_controls(const NamedParameters& np, const
   controls.roughness_cosine = angle < 180 ? std::cos(angle * radians_per_degree) : -2;
   controls.allow_self_intersections
       = parameter_or(np, allow_self_intersections, defaults::allow_self_intersections);
-  controls.flip_rounds = parameter_or(np, flip_rounds, defaults::flip_rounds);
+  controls.single_precision = parameter_or(np, single_precision, false);
   return controls;
+}
+
+template <class NamedParameters>
+Simplification_plan simplification_plan(const NamedParameters& np, const char* function)
+{
+  Simplification_plan plan;
+  plan.flip_rounds = parameter_or(np, flip_rounds, defaults::flip_rounds);
+  plan.places_freely = parameter_or(np, placement, defaults::placement) == Placement::free;
+  plan.fewest_faces = parameter_or(np, target_faces, defaults::target_faces);
+  const Effort effort_spent = parameter_or(np, effort, defaults::effort);
+  if (effort_spent == Effort::standard) plan.overshoots = {1.4};
+  if (plan.places_freely
+      && parameter_or(np, deviation_bound, defaults::deviation_bound)
+          == Deviation_bound::accumulated)
+    throw Invalid_input(
+        function, "placement", "the accumulated bound has no operation that places vertices freely",
+        "use Placement::on_surface or Deviation_bound::direct");
+  if (effort_spent == Effort::best) plan.overshoots = {1.25, 1.4, 1.6, 1.8, 2, 2};
+  return plan;
 }
 
 /// The visitor as a function; absent when the user gave none.
 template <class NamedParameters>
-Simplifier::Report_progress progress_reporter(const NamedParameters& np)
+std::function<bool(const Progress&)> progress_reporter(const NamedParameters& np)
 {
   if constexpr (is_absent<NamedParameters, CGAL::internal_np::visitor_t>) {
     return {};
@@ -88,10 +107,11 @@ void write_deviation(
 
 /// \brief turns a mesh, in place, into one with far fewer faces within a proven distance.
 ///
-/// Vertices are removed by half-edge collapses in the order of their quadric error, and edges are
-/// flipped where that improves the worse of two faces, as long as the two-sided Hausdorff distance
+/// Vertices are removed by collapses in the order of their quadric error, edges are flipped and
+/// vertices relocated where that makes room for more, as long as the two-sided Hausdorff distance
 /// to the input stays within the tolerance: every operation is checked before it is made, so the
-/// result cannot fail to comply. The vertices of the result are vertices of the input.
+/// result cannot fail to comply. The vertices of the result lie on the input, or, with free
+/// placement, anywhere within the tolerance.
 ///
 /// Genus, components and border loops are kept. Borders stay within the tolerance of the input's
 /// borders, and so do ridges and constrained edges, as curves. No face that intersects another one
@@ -159,6 +179,27 @@ void write_deviation(
 ///     \cgalParamType{`bool`}
 ///     \cgalParamDefault{`false`}
 ///   \cgalParamNEnd
+///   \cgalParamNBegin{placement}
+///     \cgalParamDescription{`Placement::on_surface`, vertices of the result lie on the input, or
+///       `Placement::free`, anywhere within the tolerance, which takes fewer faces}
+///     \cgalParamDefault{`Placement::on_surface`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{effort}
+///     \cgalParamDescription{`Effort::fast`, collapses and flips, with vertices of the input only
+///       unless placement is free; `Effort::standard`, a pass of transactions too, which exceed the
+///       tolerance for a while and come back; `Effort::best`, six of them}
+///     \cgalParamDefault{`Effort::standard`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{target_faces}
+///     \cgalParamDescription{a number of faces at which to stop}
+///     \cgalParamType{`std::size_t`}
+///     \cgalParamDefault{0, as few as the tolerance allows}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{single_precision}
+///     \cgalParamDescription{vertices that move go to points with single-precision coordinates}
+///     \cgalParamType{`bool`}
+///     \cgalParamDefault{`false`; `true` where the mesh's points have `float` coordinates}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{flip_rounds}
 ///     \cgalParamDescription{largest number of rounds of flips, each followed by collapses}
 ///     \cgalParamType{`unsigned int`}
@@ -186,43 +227,55 @@ Certificate make_geometric_mesh(
   const char* const function = "make_geometric_mesh";
   internal::require_valid_mesh(mesh, function, "mesh", np);
   internal::require_positive(tolerance, function, "tolerance");
-  const auto controls = internal::simplification_controls(np, function);
+  auto controls = internal::simplification_controls(np, function);
+  const auto plan = internal::simplification_plan(np, function);
   const Features features = find_features(mesh, np);
 
   const auto points = internal::vertex_points(mesh, np);
+  using Coordinate = std::decay_t<decltype(get(points, *mesh.vertices().begin()).x())>;
+  controls.single_precision = controls.single_precision || std::is_same_v<Coordinate, float>;
   const double scale = internal::normalising_scale(mesh, points);
   const internal::Elements<Mesh> elements(mesh, points);
   auto connectivity = internal::read_connectivity(mesh, elements);
+  auto coordinates = internal::points_in_order(elements, points, scale);
   const internal::Reference reference
-      = internal::make_reference(elements, points, scale, connectivity);
-  internal::Working_mesh working
-      = internal::make_working_mesh(elements, features, std::move(connectivity));
+      = internal::make_reference(elements, coordinates, connectivity);
+  internal::Journal journal;
+  internal::Working_mesh working = internal::make_working_mesh(
+      elements, features, std::move(connectivity), std::move(coordinates), journal);
 
   std::unique_ptr<internal::Deviation_policy> deviation;
-  const internal::Map* map = nullptr;
+  internal::Direct_bound* direct = nullptr;
   if (internal::parameter_or(np, internal::deviation_bound, internal::defaults::deviation_bound)
       == Deviation_bound::direct) {
-    auto direct = std::make_unique<internal::Direct_bound>(reference, working, scale * tolerance);
-    map = &direct->map();
-    deviation = std::move(direct);
+    // Vertices may lie outside T by the tolerance, and by a few times that for a while.
+    const internal::Rounding rounding(reference.largest_coordinate() + 4 * scale * tolerance);
+    auto bound = std::make_unique<internal::Direct_bound>(
+        reference, working, internal::Tolerance(rounding, scale * tolerance), journal);
+    direct = bound.get();
+    deviation = std::move(bound);
   } else {
     deviation
         = std::make_unique<internal::Accumulated_bound>(reference, working, scale * tolerance);
   }
 
   const auto [operations, is_complete] = internal::simplify(
-      reference, working, *deviation, controls, internal::progress_reporter(np));
+      reference, working, *deviation, direct, controls, plan, journal,
+      internal::progress_reporter(np));
 
   std::vector<double> bounds = deviation->face_bounds();
   for (double& bound : bounds) bound /= scale;
   const std::vector<bool> is_feature = internal::features_in_order(elements, features);
+  const std::vector<internal::Index> face_position = internal::face_positions(elements, mesh);
   internal::write_connectivity(working, elements, mesh);
+  internal::write_points(working, reference, elements, scale, points);
   const internal::Compaction compaction = internal::compact(elements, mesh);
   internal::write_deviation(bounds, compaction, np, mesh);
   std::optional<Correspondence> record;
-  if (map != nullptr)
-    record = internal::Recorder(reference, working, *map, elements.input_position, compaction)
-                 .record(is_feature);
+  if (direct != nullptr)
+    record
+        = internal::Recorder(reference, working, direct->map(), elements.input_position, compaction)
+              .record(is_feature, direct->inner_items(), face_position);
   const double bound = bounds.empty() ? 0 : *std::max_element(bounds.begin(), bounds.end());
   return Certificate(tolerance, bound, std::move(record), operations, !is_complete);
 }

@@ -22,6 +22,19 @@ enum class Deviation_bound {
   accumulated ///< by the sum of the distances between successive meshes; cheap, pessimistic
 };
 
+/// Where the vertices of a geometric mesh may lie.
+enum class Placement {
+  on_surface, ///< on the original, as the definition of a geometric mesh demands
+  free        ///< anywhere within the tolerance; takes fewer faces
+};
+
+/// How much work is spent on having few faces.
+enum class Effort {
+  fast,     ///< collapses in the order of their cost, and flips
+  standard, ///< and one pass of transactions that overshoot the tolerance and come back
+  best      ///< and six of them
+};
+
 /// \brief What a visitor is told.
 ///
 /// A visitor has a member function `bool on_progress(const Progress&)`; returning `false` cancels
@@ -42,6 +55,10 @@ struct shape_ratio_t {};
 struct shape_floor_t {};
 struct roughness_angle_t {};
 struct flip_rounds_t {};
+struct placement_t {};
+struct effort_t {};
+struct target_faces_t {};
+struct single_precision_t {};
 struct relative_slack_t {};
 struct maximum_subdivisions_t {};
 struct deviation_map_t {};
@@ -53,6 +70,10 @@ inline constexpr shape_ratio_t shape_ratio{};
 inline constexpr shape_floor_t shape_floor{};
 inline constexpr roughness_angle_t roughness_angle{};
 inline constexpr flip_rounds_t flip_rounds{};
+inline constexpr placement_t placement{};
+inline constexpr effort_t effort{};
+inline constexpr target_faces_t target_faces{};
+inline constexpr single_precision_t single_precision{};
 inline constexpr relative_slack_t relative_slack{};
 inline constexpr maximum_subdivisions_t maximum_subdivisions{};
 inline constexpr deviation_map_t deviation_map{};
@@ -72,6 +93,9 @@ constexpr double shape_floor = 10;
 constexpr double roughness_angle = 45;
 constexpr bool allow_self_intersections = false;
 constexpr unsigned flip_rounds = 3;
+constexpr Placement placement = Placement::on_surface;
+constexpr Effort effort = Effort::standard;
+constexpr std::size_t target_faces = 0;
 constexpr double relative_slack = 0.01;
 } // namespace defaults
 
@@ -109,6 +133,10 @@ public:
     return then<internal::allow_self_intersections_t>(allow);
   }
   auto flip_rounds(unsigned rounds) const { return then<internal::flip_rounds_t>(rounds); }
+  auto placement(Placement where) const { return then<internal::placement_t>(where); }
+  auto effort(Effort how_much) const { return then<internal::effort_t>(how_much); }
+  auto target_faces(std::size_t number) const { return then<internal::target_faces_t>(number); }
+  auto single_precision(bool single) const { return then<internal::single_precision_t>(single); }
   auto relative_slack(double slack) const { return then<internal::relative_slack_t>(slack); }
   auto maximum_subdivisions(std::size_t number) const
   {
@@ -228,6 +256,37 @@ inline auto allow_self_intersections(bool allow)
 inline auto flip_rounds(unsigned rounds)
 {
   return Named_parameters<unsigned, internal::flip_rounds_t>(rounds);
+}
+
+/// \brief Where vertices may lie (`Placement`). Default: `Placement::on_surface`.
+///
+/// Ridge and border vertices of the result are vertices of the input with `Placement::on_surface`.
+inline auto placement(Placement where)
+{
+  return Named_parameters<Placement, internal::placement_t>(where);
+}
+
+/// \brief How much work to spend on having few faces (`Effort`). Default: `Effort::standard`.
+inline auto effort(Effort how_much)
+{
+  return Named_parameters<Effort, internal::effort_t>(how_much);
+}
+
+/// \brief Number of faces at which a simplification stops, if the tolerance lets it come so far.
+///
+/// A number of faces (`std::size_t`). Default: 0, as few as the tolerance allows.
+inline auto target_faces(std::size_t number)
+{
+  return Named_parameters<std::size_t, internal::target_faces_t>(number);
+}
+
+/// \brief Whether vertices that move go to points whose coordinates are single-precision numbers
+/// (`bool`), for results that will be stored so. Default: `false`.
+///
+/// A mesh whose points have `float` coordinates is treated so in any case.
+inline auto single_precision(bool single)
+{
+  return Named_parameters<bool, internal::single_precision_t>(single);
 }
 
 /// \brief Largest gap that a verifier of distances leaves between the truth and what it proves.

@@ -9,9 +9,11 @@
 #ifndef SURETY_INTERNAL_WORKING_MESH_H
 #define SURETY_INTERNAL_WORKING_MESH_H
 
+#include <surety/internal/journal.h>
 #include <surety/internal/linear.h>
 
 #include <array>
+#include <numeric>
 #include <vector>
 
 namespace surety::internal {
@@ -25,11 +27,15 @@ public:
     Index vertices = 0, faces = 0;
   };
 
+  /// Writes what can be undone to the journal.
   Working_mesh(
-      Connectivity connectivity, std::vector<bool> feature_edge, std::vector<bool> fixed_vertex)
-    : next_(std::move(connectivity.next)),
+      Connectivity connectivity, std::vector<Vector> points, std::vector<bool> feature_edge,
+      std::vector<bool> fixed_vertex, Journal& journal)
+    : journal_(&journal),
+      next_(std::move(connectivity.next)),
       target_(std::move(connectivity.target)),
       face_(std::move(connectivity.face)),
+      points_(std::move(points)),
       feature_(std::move(feature_edge)),
       fixed_(std::move(fixed_vertex)),
       real_vertices_(connectivity.vertices),
@@ -39,7 +45,16 @@ public:
   {
     close_borders();
     index_halfedges();
+    anchor_.resize(real_vertices_);
+    std::iota(anchor_.begin(), anchor_.end(), Index(0));
+    on_feature_.assign(fixed_.size(), false);
+    for (Index h = 0; h < target_.size(); ++h)
+      if (feature_[h / 2]) on_feature_[target_[h]] = true;
   }
+
+  /// Where a vertex that is not a ghost lies, and a vertex of T that is near.
+  const Vector& point(Index v) const { return points_[v]; }
+  Index anchor(Index v) const { return anchor_[v]; }
 
   Index next(Index h) const { return next_[h]; }
   Index prev(Index h) const { return next_[next_[h]]; }
@@ -67,6 +82,8 @@ public:
   bool is_live_edge(Index e) const { return face_[2 * e] != none; }
   bool is_feature(Index e) const { return feature_[e]; }
   bool is_fixed(Index v) const { return fixed_[v]; }
+  /// Whether the vertex is on a ridge or border, on which it then stays as long as it lives.
+  bool is_on_feature(Index v) const { return on_feature_[v]; }
   bool is_border(Index e) const
   {
     return is_ghost_face(face_[2 * e]) || is_ghost_face(face_[2 * e + 1]);
@@ -99,31 +116,45 @@ public:
   /// indices; the two faces on h die, and of the edges that merge there those at P.
   void collapse(Index h);
 
+  void move(Index v, const Vector& point, Index anchor)
+  {
+    set(anchor_[v], anchor);
+    for (int i = 0; i < 3; ++i) journal_->set(points_[v][i], point[i]);
+  }
+
   /// Turns h = a -> b, between c on its left and d on its right, into d -> c.
   void flip(Index h);
 
 private:
   void close_borders();
   void index_halfedges();
+  void set(Index& place, Index value) { journal_->set(place, value); }
   void remove_face(Index f)
   {
-    face_halfedge_[f] = none;
-    if (!is_ghost_face(f)) --live_faces_;
+    set(face_halfedge_[f], none);
+    if (!is_ghost_face(f)) set(live_faces_, live_faces_ - 1);
   }
-  void remove_edge(Index e) { face_[2 * e] = face_[2 * e + 1] = none; }
+  void remove_edge(Index e)
+  {
+    set(face_[2 * e], none);
+    set(face_[2 * e + 1], none);
+  }
 
   /// Puts half-edge h in the place that `old` has in its face.
   void replace_in_face(Index old, Index h)
   {
-    next_[prev(old)] = h;
-    next_[h] = next_[old];
-    face_[h] = face_[old];
-    face_halfedge_[face_[old]] = h;
+    set(next_[prev(old)], h);
+    set(next_[h], next_[old]);
+    set(face_[h], face_[old]);
+    set(face_halfedge_[face_[old]], h);
   }
 
+  Journal* journal_;
   std::vector<Index> next_, target_, face_;
+  std::vector<Vector> points_;
+  std::vector<Index> anchor_;
   std::vector<Index> vertex_halfedge_, face_halfedge_;
-  std::vector<bool> feature_, fixed_;
+  std::vector<bool> feature_, fixed_, on_feature_;
   Index real_vertices_, real_faces_, real_edges_, live_faces_;
 };
 
@@ -139,7 +170,7 @@ inline void Working_mesh::collapse(Index h)
 
   Index spoke = opposite(prev(left_spoke));
   for (; spoke != right_spoke && spoke != h; spoke = opposite(prev(spoke)))
-    target_[opposite(spoke)] = q;
+    set(target_[opposite(spoke)], q);
 
   replace_in_face(left_spoke, left);
   replace_in_face(opposite(right_spoke), right);
@@ -147,10 +178,10 @@ inline void Working_mesh::collapse(Index h)
   remove_edge(edge(left_spoke));
   remove_edge(edge(right_spoke));
 
-  vertex_halfedge_[p] = none;
-  vertex_halfedge_[q] = right;
-  vertex_halfedge_[target_[left]] = left;
-  vertex_halfedge_[source(right)] = opposite(right);
+  set(vertex_halfedge_[p], none);
+  set(vertex_halfedge_[q], right);
+  set(vertex_halfedge_[target_[left]], left);
+  set(vertex_halfedge_[source(right)], opposite(right));
 }
 
 inline void Working_mesh::flip(Index h)
@@ -159,14 +190,13 @@ inline void Working_mesh::flip(Index h)
   const Index bc = next(h), ca = prev(h), ad = next(o), db = prev(o);
   const Index a = target_[o], b = target_[h], c = target_[bc], d = target_[ad];
   const Index left = face_[h], right = face_[o];
-  target_[h] = c;
-  target_[o] = d;
-  next_[ca] = ad, next_[ad] = h, next_[h] = ca;
-  next_[db] = bc, next_[bc] = o, next_[o] = db;
-  face_[ad] = left, face_[bc] = right;
-  face_halfedge_[left] = h, face_halfedge_[right] = o;
-  vertex_halfedge_[a] = ca, vertex_halfedge_[b] = db;
-  vertex_halfedge_[c] = h, vertex_halfedge_[d] = o;
+  set(target_[h], c), set(target_[o], d);
+  set(next_[ca], ad), set(next_[ad], h), set(next_[h], ca);
+  set(next_[db], bc), set(next_[bc], o), set(next_[o], db);
+  set(face_[ad], left), set(face_[bc], right);
+  set(face_halfedge_[left], h), set(face_halfedge_[right], o);
+  set(vertex_halfedge_[a], ca), set(vertex_halfedge_[b], db);
+  set(vertex_halfedge_[c], h), set(vertex_halfedge_[d], o);
 }
 
 inline void Working_mesh::close_borders()
@@ -196,6 +226,7 @@ inline void Working_mesh::close_borders()
   }
   feature_.resize(next_.size() / 2, false);
   fixed_.resize(vertex, true);
+  points_.resize(vertex, Vector::Zero());
   vertex_halfedge_.assign(vertex, none);
   face_halfedge_.assign(face, none);
 }

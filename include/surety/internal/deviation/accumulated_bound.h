@@ -44,6 +44,7 @@ public:
 
   Verdict check(const Disc& disc) override
   {
+    if (disc.is_closed()) return Verdict::correspondence; // the paper has no such operation
     disc_ = &disc;
     old_.clear();
     for (const Index f : disc.old_face) old_.push_back(mesh_.is_ghost_face(f) ? 0.0 : bound_[f]);
@@ -59,7 +60,7 @@ public:
   }
 
   /// Zero for faces that are gone.
-  std::vector<double> face_bounds() const override { return bound_; }
+  std::vector<double> face_bounds() override { return bound_; }
 
 private:
   using Interval = CGAL::Interval_nt<false>;
@@ -67,7 +68,7 @@ private:
   /// A ridge parts the disc in two. A side of ghosts has nothing to move.
   bool disc_is_within_limit()
   {
-    const Index k = disc_->size(), m = disc_->ridge;
+    const Index k = disc_->size(), m = ridge_place();
     if (m == 0) return part_is_within_limit({0, k, k});
     return (disc_->first > 1 || part_is_within_limit({0, m, k}))
         && (disc_->last + 2 < k || part_is_within_limit({m, k, k}));
@@ -83,6 +84,8 @@ private:
   template <class Number>
   bool measure_flip();
 
+  /// Where the ridge leaves the disc at its far end; 0 where there is none.
+  Index ridge_place() const { return disc_->ridge[0] == none ? 0 : disc_->ridge[0]; }
   bool is_flip() const { return disc_->removed == none; }
 
   /// b(new face j) is at least `old`, a bound of an old face, plus the displacement.
@@ -100,7 +103,7 @@ private:
   template <class Number>
   std::array<Number, 3> from_apex(Index vertex) const
   {
-    const Vector &p = reference_.point(vertex), &q = reference_.point(disc_->apex());
+    const Vector &p = reference_.point(vertex), &q = reference_.point(disc_->apex);
     return {
         Number(p.x()) - Number(q.x()), Number(p.y()) - Number(q.y()),
         Number(p.z()) - Number(q.z())};
@@ -108,7 +111,7 @@ private:
   Vector ring_vector(Index i) const
   {
     if (i == disc_->size()) return Vector::Zero();
-    return reference_.point(disc_->ring[i]) - reference_.point(disc_->apex());
+    return reference_.point(disc_->ring[i]) - reference_.point(disc_->apex);
   }
   Vector area_vector(Index j) const { return ring_vector(j).cross(ring_vector(j + 1)); }
 
@@ -166,7 +169,7 @@ inline Vector Accumulated_bound::direction(const Part& part, Index candidate) co
 /// `normal` as this allows. QR is drawn on the first axis, and P on it.
 inline bool Accumulated_bound::draw(const Part& part, const Vector& normal)
 {
-  const Index m = disc_->ridge;
+  const Index m = ridge_place();
   const Vector along = m == 0 ? Vector(normal.unitOrthogonal()) : unit(ring_vector(m));
   const Vector across = unit(normal.cross(along));
   drawing_.start(part);
@@ -175,7 +178,7 @@ inline bool Accumulated_bound::draw(const Part& part, const Vector& normal)
     drawing_.place_ring(i, along.dot(r), i == m ? 0.0 : across.dot(r));
   }
   if (is_flip()) return drawing_.is_valid_flip();
-  const Vector p = reference_.point(disc_->removed) - reference_.point(disc_->apex());
+  const Vector p = reference_.point(disc_->removed) - reference_.point(disc_->apex);
   drawing_.place_removed(along.dot(p), m == 0 ? across.dot(p) : 0.0);
   return drawing_.is_valid();
 }

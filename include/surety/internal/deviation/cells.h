@@ -28,11 +28,14 @@ struct Item {
 ///
 /// Ears are cut greedily. An ear at a node whose neighbours share a face with it is the step
 /// "cancel equal adjacent crossings"; what remains about one pinned corner is its fan. Pinned
-/// corners are kept as long as anything else can be cut, since only they can absorb a residue.
+/// corners are kept as long as anything else can be cut, since only they can absorb a residue. The
+/// residue that no corner absorbs may wind about a vertex of M: winding_vertex().
 class Cell_search
 {
 public:
-  /// Faces answers has_vertex(face, vertex) and face_of(u, v, w) for the mesh after the operation.
+  /// Faces answers has_vertex(face, vertex), vertices_of(face), face_of(u, v, w) and
+  /// for_each_face_at(vertex, visit) for the mesh after the operation. What cannot be cut is left
+  /// in `items`.
   template <class Faces>
   bool triangulates(std::vector<Item>& items, const Faces& faces)
   {
@@ -59,6 +62,25 @@ public:
     return in_one_face(items[0], items[1], items[2], faces);
   }
 
+  /// For what triangulates() left of a polygon: the vertex W of M about which it winds, so that the
+  /// cells (c, item, next item) lie in one closed face of M each once a point c of the T triangle
+  /// goes to W. `none` where there is no such vertex.
+  template <class Faces>
+  static Index winding_vertex(const std::vector<Item>& items, const Faces& faces)
+  {
+    Index found = none;
+    const auto try_corners = [&](Index f) {
+      if (f == none || found != none || !lies_in(items[1], f, faces)) return;
+      for (const Index w : faces.vertices_of(f))
+        if (winds_about(w, items, faces)) found = w;
+    };
+    if (items[0].is_vertex())
+      faces.for_each_face_at(items[0].element.id(), try_corners);
+    else
+      for (const Index f : items[0].face) try_corners(f);
+    return found;
+  }
+
   template <class Faces>
   static bool in_one_face(const Item& a, const Item& b, const Item& c, const Faces& faces)
   {
@@ -72,6 +94,15 @@ public:
   }
 
 private:
+  template <class Faces>
+  static bool winds_about(Index w, const std::vector<Item>& items, const Faces& faces)
+  {
+    const Item centre{Element(Element::Kind::vertex, w), {none, none}};
+    for (std::size_t i = 0; i < items.size(); ++i)
+      if (!in_one_face(items[i], items[(i + 1) % items.size()], centre, faces)) return false;
+    return true;
+  }
+
   template <class Faces>
   static bool lies_in(const Item& item, Index f, const Faces& faces)
   {

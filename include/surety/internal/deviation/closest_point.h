@@ -21,33 +21,48 @@ inline double squared_distance_to_segment(const Vector& p, const Vector& a, cons
   return (ap - mu * ab).squaredNorm();
 }
 
-/// Squared distance of p to the triangle a, a + ab, a + ac, by the Voronoi region of p
-/// (Ericson, Real-Time Collision Detection, section 5.1.5).
-inline double squared_distance_to_triangle(
+/// The point a + v ab + w ac of a triangle, v, w >= 0, v + w <= 1.
+struct Triangle_weights {
+  double v, w;
+};
+
+/// The closest point of the triangle a, a + ab, a + ac to p, by the Voronoi region of p (Ericson,
+/// Real-Time Collision Detection, section 5.1.5).
+inline Triangle_weights closest_weights(
     const Vector& p, const Vector& a, const Vector& ab, const Vector& ac)
 {
   const Vector ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return ap.squaredNorm();
+  if (d1 <= 0 && d2 <= 0) return {0, 0};
 
   const Vector bp = ap - ab;
   const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return bp.squaredNorm();
+  if (d3 >= 0 && d4 <= d3) return {1, 0};
   const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return (ap - d1 / (d1 - d3) * ab).squaredNorm();
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {d1 / (d1 - d3), 0};
 
   const Vector cp = ap - ac;
   const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return cp.squaredNorm();
+  if (d6 >= 0 && d5 <= d6) return {0, 1};
   const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ap - d2 / (d2 - d6) * ac).squaredNorm();
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {0, d2 / (d2 - d6)};
 
   const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 >= d3 && d5 >= d6)
-    return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (ac - ab)).squaredNorm();
-
+  if (va <= 0 && d4 >= d3 && d5 >= d6) {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {1 - w, w};
+  }
   const double scale = 1 / (va + vb + vc);
-  return (ap - vb * scale * ab - vc * scale * ac).squaredNorm();
+  const double v = vb * scale;
+  return {v, std::min(vc * scale, 1 - v)};
+}
+
+/// Squared distance of p to the triangle a, a + ab, a + ac.
+inline double squared_distance_to_triangle(
+    const Vector& p, const Vector& a, const Vector& ab, const Vector& ac)
+{
+  const auto [v, w] = closest_weights(p, a, ab, ac);
+  return (p - a - v * ab - w * ac).squaredNorm();
 }
 
 /// The parameter in [low, high] of the point of a + lambda d closest to the segment from q along e

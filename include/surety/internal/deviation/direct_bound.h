@@ -11,6 +11,12 @@
 //   I5  a T ridge or border path between live vertices maps to the M edge that joins them.
 // Hence every point of T has one of M within the tolerance (a cell maps linearly into one face, and
 // the largest displacement is at a corner), and, phi being onto, every point of M one of T.
+//
+// A vertex of M may lie anywhere. One that was never moved is *pinned*: the T vertex that it was
+// goes to it. A ridge vertex stays pinned when it moves, with an offset. About any other vertex W
+// the boundary of one T triangle winds, and the point of the triangle that is closest to W goes to
+// W: it is worked out anew whenever an edge of that triangle is routed, and so whenever anything
+// about W changes.
 #ifndef SURETY_INTERNAL_DEVIATION_DIRECT_BOUND_H
 #define SURETY_INTERNAL_DEVIATION_DIRECT_BOUND_H
 
@@ -19,53 +25,67 @@
 #include <surety/internal/deviation/map.h>
 #include <surety/internal/deviation/policy.h>
 #include <surety/internal/deviation/reference.h>
-#include <surety/internal/deviation/rounding.h>
+#include <surety/internal/deviation/tolerance.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace surety::internal {
 
+/// A point inside a T triangle that goes to a vertex of M: x_a + v (x_b - x_a) + w (x_c - x_a),
+/// where a, b, c are the triangle's vertices in the order of the user's mesh.
+struct Inner_item {
+  Index face, m_vertex;
+  Triangle_weights weights;
+  double squared_distance;
+};
+
 class Direct_bound final : public Deviation_policy
 {
 public:
-  Direct_bound(const Reference& reference, const Working_mesh& mesh, double tolerance)
+  Direct_bound(
+      const Reference& reference, const Working_mesh& mesh, Tolerance tolerance, Journal& journal)
     : reference_(reference),
       mesh_(mesh),
-      rounding_(reference.largest_coordinate()),
-      squared_limit_(rounding_.squared_limit(tolerance)),
+      tolerance_(std::move(tolerance)),
+      journal_(journal),
       map_(
           reference.number_of_vertices(), reference.number_of_edges(), mesh.number_of_edges(),
-          mesh.number_of_real_faces()),
+          mesh.number_of_real_faces(), journal),
       slot_of_vertex_(reference.number_of_vertices(), 0),
       slot_of_edge_(reference.number_of_edges(), 0),
       blocker_(reference.number_of_vertices(), none)
   {}
 
-  Verdict check(const Disc& disc) override
-  {
-    disc_ = &disc;
-    vertices_.clear();
-    edges_.clear();
-    nodes_.clear();
-    if (is_blocked()) return Verdict::deviation;
-    if (!move_vertices()) return Verdict::deviation;
-    gather_edges();
-    const Verdict verdict = route_edges();
-    if (verdict != Verdict::accept) return verdict;
-    return extends_over_faces() ? Verdict::accept : Verdict::correspondence;
-  }
-
+  Verdict check(const Disc& disc) override;
   void commit(const Disc& disc) override;
   Forecast forecast(const Disc& disc) const override;
-  std::vector<double> face_bounds() const override;
+  std::vector<double> face_bounds() override;
+
   const Map& map() const { return map_; }
+  const Tolerance& tolerance() const { return tolerance_; }
+  /// Checks against a multiple of the tolerance until the next call. What is committed meanwhile
+  /// must come to be within the tolerance, or be undone, before a result is made of it.
+  void overshoot(double factor) { tolerance_.overshoot(factor); }
+
+  /// The largest ratio of a squared distance and its limit among what maps to a face or an edge.
+  double largest_ratio_on_face(Index m_face) const;
+  double largest_ratio_on_edge(Index m_edge) const;
+  /// The same for the inner items of the T triangles at the edges routed since the journal began.
+  double largest_inner_ratio_of_transaction();
+  void begin_transaction() { touched_edges_.clear(), nodes_before_ = map_.number_of_nodes(); }
+  /// To be called when the journal has undone the transaction.
+  void forget_transaction() { map_.forget_nodes_from(nodes_before_); }
+
+  /// The inner items of all T triangles, by triangle.
+  std::vector<Inner_item> inner_items();
 
 private:
   struct Moved_vertex {
     Index vertex;
     Element image;
-    Index low, high; ///< the fan faces that contain the image
+    Index low, count; ///< the fan faces that contain the image
   };
   struct Routed_edge {
     Index edge, first, last; ///< range of nodes_
@@ -75,19 +95,26 @@ private:
     Index m_edge;
     double lambda;
   };
-  /// A place on a T edge and the fan faces that contain its image.
+  /// A place on a T edge and the fan faces that contain its image, consecutive ones.
   struct Stop {
-    Index low, high;
+    Index low, count;
     double lambda;
+  };
+  /// A run of consecutive fan faces.
+  struct Side {
+    Index low, count;
   };
 
   // Step 1: the T vertices on the disc.
   bool is_blocked() const;
+  bool keeps_pin_in_tolerance() const;
   bool move_vertices();
-  bool move_to_faces(Index v, Index low, Index high);
-  bool move_to_ridge(Index v);
-  double nearest_face(const Disc& disc, const Vector& p, Index low, Index high, Index& face) const;
-  std::array<Index, 2> side_of_old_face(Index i) const;
+  bool move_vertices_to_ridges();
+  bool move_to_faces(Index v, Side side);
+  bool move_to_ridge(Index v, Index spoke);
+  double nearest_face(const Disc& disc, const Vector& p, Side side, Index& face) const;
+  Side side_of_place(const Disc& disc, Index place) const;
+  Side faces_at_spoke(Index spoke) const;
 
   // Step 2: the T edges that meet the disc, and their new crossings.
   void gather_edges();
@@ -101,18 +128,49 @@ private:
   Verdict route_edges();
   Verdict route(Index e);
   Verdict connect(Index e, const Stop& from, const Stop& to);
-  bool cross(Index e, Index spoke, double low, double high);
+  Verdict connect_in_open_fan(Index e, const Stop& from, const Stop& to);
+  Verdict connect_in_closed_fan(Index e, const Stop& from, const Stop& to);
+  Verdict cross_all(Index e, const Stop& from, const Stop& to, bool counter_clockwise);
+  bool passes_apex_on_left(Index e, double from, double to) const;
+  Verdict cross(Index e, Index spoke, double low, double high);
   bool stop_at_vertex(Index v, double lambda, Stop& stop) const;
   bool stop_at_node(const Pending_node& node, Stop& stop) const;
   bool runs_inside(Index e, Index previous, Index next) const;
-  Element item_element(Index e, Index item) const;
 
   // Step 3: invariant I3 over the T triangles at those edges.
   bool extends_over_faces();
   bool extends_over(Index face);
+  bool collect_items(Index face);
   void append_nodes(Index e, bool forward);
   Item item_at_vertex(Index v) const;
   Item item_on_edge(Index m_edge) const;
+  std::optional<Inner_item> inner_item(Index face);
+  double limit_at(const Inner_item& inner) const;
+
+  Vector point_on_edge(Index e, double lambda) const
+  {
+    const auto [s, t] = reference_.vertices_of_edge(e);
+    const Vector& a = reference_.point(s);
+    return a + lambda * (reference_.point(t) - a);
+  }
+  double limit_on_edge(Index e, double lambda) const
+  {
+    const auto [s, t] = reference_.vertices_of_edge(e);
+    return tolerance_.squared_limit(s, t, lambda);
+  }
+  double squared_distance_to_m_edge(const Vector& p, Index m_edge) const
+  {
+    const Index h = mesh_.halfedge(m_edge);
+    const Vector& a = mesh_.point(mesh_.source(h));
+    return squared_distance_to_segment(p, a, mesh_.point(mesh_.target(h)) - a);
+  }
+  double squared_distance_to_m_face(const Vector& p, Index m_face) const
+  {
+    const auto corner = mesh_.vertices_of(m_face);
+    const Vector& a = mesh_.point(corner[0]);
+    return squared_distance_to_triangle(
+        p, a, mesh_.point(corner[1]) - a, mesh_.point(corner[2]) - a);
+  }
 
   Index slot_of_vertex(Index v) const
   {
@@ -129,19 +187,31 @@ private:
     const Index slot = slot_of_vertex(v);
     return slot != none ? vertices_[slot].image : map_.image(v);
   }
-  const Vector& point(Index m_vertex) const { return reference_.point(m_vertex); }
+  const Vector& point(Index m_vertex) const
+  {
+    return m_vertex == disc_->apex ? disc_->apex_point : mesh_.point(m_vertex);
+  }
+  void forget_disc()
+  {
+    disc_ = &no_disc_;
+    vertices_.clear();
+    edges_.clear();
+    nodes_.clear();
+  }
 
   const Reference& reference_;
   const Working_mesh& mesh_;
-  Rounding rounding_;
-  double squared_limit_;
+  Tolerance tolerance_;
+  Journal& journal_;
   Map map_;
 
   // What check() worked out, kept for commit().
+  Disc no_disc_;
   const Disc* disc_ = nullptr;
   std::vector<Moved_vertex> vertices_;
   std::vector<Routed_edge> edges_;
   std::vector<Pending_node> nodes_;
+  Vector fan_normal_; ///< of a closed fan
 
   // Sparse sets: element -> slot, valid if the slot names the element.
   std::vector<Index> slot_of_vertex_, slot_of_edge_;
@@ -149,6 +219,10 @@ private:
   std::vector<Index> blocker_;
   std::vector<Item> items_;
   Cell_search cells_;
+
+  // T edges routed since the transaction began, and the size of the pool of nodes then.
+  std::vector<Index> touched_edges_;
+  std::size_t nodes_before_ = 0;
 
   friend class After_disc;
 };

@@ -12,24 +12,34 @@ class After_disc
 public:
   After_disc(const Working_mesh& mesh, const Disc& disc) : mesh_(mesh), disc_(disc) {}
 
-  bool has_vertex(Index f, Index v) const
+  std::array<Index, 3> vertices_of(Index f) const
   {
     const Index i = disc_.position_of_new_face(f);
-    if (i == none) return mesh_.has_vertex(f, v);
-    return v == disc_.apex() || v == disc_.ring[i] || v == disc_.ring[i + 1];
+    if (i == none) return mesh_.vertices_of(f);
+    return {disc_.apex, disc_.ring[i], disc_.ring[disc_.after(i)]};
   }
-
-  Index face_of(Index u, Index v, Index w) const
+  bool has_vertex(Index f, Index v) const
   {
-    for (Index i = disc_.first; i <= disc_.last; ++i)
-      if (has_vertex(disc_.face[i], u) && has_vertex(disc_.face[i], v)
-          && has_vertex(disc_.face[i], w))
-        return disc_.face[i];
-    Index found = none;
+    const auto corner = vertices_of(f);
+    return corner[0] == v || corner[1] == v || corner[2] == v;
+  }
+  template <class Visit>
+  void for_each_face_at(Index u, Visit visit) const
+  {
+    disc_.for_each_new_face([&](Index i) {
+      const bool at_u = disc_.apex == u || disc_.ring[i] == u || disc_.ring[disc_.after(i)] == u;
+      if (at_u && !mesh_.is_ghost_face(disc_.face[i])) visit(disc_.face[i]);
+    });
     mesh_.for_each_outgoing(u, [&](Index h) {
       const Index f = mesh_.face(h);
-      if (disc_.position_of_old_face(f) == none && mesh_.has_vertex(f, v) && mesh_.has_vertex(f, w))
-        found = f;
+      if (!mesh_.is_ghost_face(f) && disc_.position_of_old_face(f) == none) visit(f);
+    });
+  }
+  Index face_of(Index u, Index v, Index w) const
+  {
+    Index found = none;
+    for_each_face_at(u, [&](Index f) {
+      if (found == none && has_vertex(f, v) && has_vertex(f, w)) found = f;
     });
     return found;
   }
@@ -39,24 +49,51 @@ private:
   const Disc& disc_;
 };
 
-inline std::array<Index, 2> Direct_bound::side_of_old_face(Index i) const
+inline Verdict Direct_bound::check(const Disc& disc)
 {
-  if (disc_->ridge == 0) return {disc_->first, disc_->last};
-  if (i < disc_->ridge) return {disc_->first, disc_->ridge - 1};
-  return {disc_->ridge, disc_->last};
+  forget_disc();
+  disc_ = &disc;
+  if (is_blocked() || !keeps_pin_in_tolerance() || !move_vertices()) return Verdict::deviation;
+  gather_edges();
+  const Verdict verdict = route_edges();
+  if (verdict != Verdict::accept) return verdict;
+  return extends_over_faces() ? Verdict::accept : Verdict::correspondence;
+}
+
+/// The new faces on that side of the ridge on which an old face at a place of the ring lies.
+inline Direct_bound::Side Direct_bound::side_of_place(const Disc& disc, Index place) const
+{
+  const auto [left, right] = disc.ridge;
+  if (disc.is_closed()) {
+    if (left == none) return {0, disc.size()};
+    const bool between = left <= place && place < right;
+    return between ? Side{left, right - left} : Side{right, disc.size() - (right - left)};
+  }
+  if (left == none) return {disc.first, disc.last + 1 - disc.first};
+  return place < left ? Side{disc.first, left - disc.first} : Side{left, disc.last + 1 - left};
+}
+
+inline Direct_bound::Side Direct_bound::faces_at_spoke(Index spoke) const
+{
+  if (disc_->is_closed()) return {disc_->before(spoke), 2};
+  const Index low = std::max(spoke == 0 ? 0 : spoke - 1, disc_->first);
+  return {low, std::min(spoke, disc_->last) + 1 - low};
 }
 
 inline double Direct_bound::nearest_face(
-    const Disc& disc, const Vector& p, Index low, Index high, Index& face) const
+    const Disc& disc, const Vector& p, Side side, Index& face) const
 {
-  const Vector& apex = point(disc.apex());
+  const Vector& apex = disc.apex_point;
   double best = std::numeric_limits<double>::infinity();
-  Vector ab = point(disc.ring[low]) - apex;
-  for (Index i = low; i <= high; ++i) {
-    const Vector ac = point(disc.ring[i + 1]) - apex;
+  Index i = side.low;
+  Vector ab = mesh_.point(disc.ring[i]) - apex;
+  for (Index left = side.count; left > 0; --left) {
+    const Index next = disc.after(i);
+    const Vector ac = mesh_.point(disc.ring[next]) - apex;
     const double squared = squared_distance_to_triangle(p, apex, ab, ac);
     if (squared < best) best = squared, face = i;
     ab = ac;
+    i = next;
   }
   return best;
 }
@@ -68,57 +105,76 @@ inline bool Direct_bound::is_blocked() const
   if (v == none || map_.image(v).kind() != Element::Kind::face) return false;
   const Index i = disc_->position_of_old_face(map_.image(v).id());
   if (i == none) return false;
-  const auto [low, high] = side_of_old_face(i);
   Index face = none;
-  return !(nearest_face(*disc_, reference_.point(v), low, high, face) <= squared_limit_);
+  return !(
+      nearest_face(*disc_, reference_.point(v), side_of_place(*disc_, disc_->old_place[i]), face)
+      <= tolerance_.squared_limit(v));
 }
 
-inline bool Direct_bound::move_to_faces(Index v, Index low, Index high)
+inline bool Direct_bound::keeps_pin_in_tolerance() const
+{
+  if (!disc_->is_closed() || !disc_->keeps_pin) return true;
+  const Index v = map_.pin(disc_->apex);
+  return (reference_.point(v) - disc_->apex_point).squaredNorm() <= tolerance_.squared_limit(v);
+}
+
+inline bool Direct_bound::move_to_faces(Index v, Side side)
 {
   Index face = none;
-  if (!(nearest_face(*disc_, reference_.point(v), low, high, face) <= squared_limit_)) {
+  if (!(nearest_face(*disc_, reference_.point(v), side, face) <= tolerance_.squared_limit(v))) {
     if (disc_->removed != none) blocker_[disc_->removed] = v;
     return false;
   }
   slot_of_vertex_[v] = static_cast<Index>(vertices_.size());
-  vertices_.push_back({v, Element(Element::Kind::face, disc_->face[face]), face, face});
+  vertices_.push_back({v, Element(Element::Kind::face, disc_->face[face]), face, 1});
   return true;
 }
 
-inline bool Direct_bound::move_to_ridge(Index v)
+inline bool Direct_bound::move_to_ridge(Index v, Index spoke)
 {
-  const Index m = disc_->ridge;
-  const Vector& apex = point(disc_->apex());
-  if (!(squared_distance_to_segment(reference_.point(v), apex, point(disc_->ring[m]) - apex)
-        <= squared_limit_))
+  const Vector along = mesh_.point(disc_->ring[spoke]) - disc_->apex_point;
+  if (!(squared_distance_to_segment(reference_.point(v), disc_->apex_point, along)
+        <= tolerance_.squared_limit(v)))
     return false;
+  const Side at_spoke = faces_at_spoke(spoke);
   slot_of_vertex_[v] = static_cast<Index>(vertices_.size());
   vertices_.push_back(
-      {v, Element(Element::Kind::edge, disc_->spoke[m]), std::max(m - 1, disc_->first),
-       std::min(m, disc_->last)});
+      {v, Element(Element::Kind::edge, disc_->spoke[spoke]), at_spoke.low, at_spoke.count});
   return true;
+}
+
+/// The vertices on a ridge through the disc stay on it: each new ridge edge takes over old ones,
+/// and the vertex that went to P goes to the one that takes over PQ.
+inline bool Direct_bound::move_vertices_to_ridges()
+{
+  const Disc& disc = *disc_;
+  bool admissible = true;
+  for (int k = 0; k < 2 && disc.ridge[k] != none; ++k)
+    for (const Index old : disc.old_ridge[k]) {
+      if (old == none) continue;
+      map_.for_each_vertex_on_edge(
+          old, [&](Index v) { admissible = admissible && move_to_ridge(v, disc.ridge[k]); });
+      if (admissible && disc.removed != none && old == mesh_.edge(disc.halfedge))
+        admissible = move_to_ridge(map_.pin(disc.removed), disc.ridge[k]);
+    }
+  return admissible;
 }
 
 inline bool Direct_bound::move_vertices()
 {
   const Disc& disc = *disc_;
-  bool admissible = true;
-  const auto move_along_ridge = [&](Index v) { admissible = admissible && move_to_ridge(v); };
-  if (disc.removed != none) {
-    if (disc.ridge != 0) {
-      move_along_ridge(disc.removed);
-      map_.for_each_vertex_on_edge(disc.old_spoke[0], move_along_ridge);
-      map_.for_each_vertex_on_edge(disc.old_spoke[disc.ridge], move_along_ridge);
-    } else {
-      admissible = move_to_faces(disc.removed, disc.first, disc.last);
-    }
-  }
+  bool admissible = move_vertices_to_ridges();
+  const auto release = [&](Index m_vertex) {
+    const Index v = map_.pin(m_vertex);
+    if (admissible && v != none) admissible = move_to_faces(v, side_of_place(disc, 0));
+  };
+  if (disc.removed != none && disc.ridge[0] == none) release(disc.removed);
+  if (disc.is_closed() && !disc.keeps_pin) release(disc.apex);
   for (Index i = 0; admissible && i < disc.old_face.size(); ++i) {
     if (mesh_.is_ghost_face(disc.old_face[i])) continue;
-    const auto [low, high] = side_of_old_face(i);
-    map_.for_each_vertex_on_face(disc.old_face[i], [&, low = low, high = high](Index v) {
-      admissible = admissible && move_to_faces(v, low, high);
-    });
+    const Side side = side_of_place(disc, disc.old_place[i]);
+    map_.for_each_vertex_on_face(
+        disc.old_face[i], [&](Index v) { admissible = admissible && move_to_faces(v, side); });
   }
   return admissible;
 }
@@ -129,7 +185,7 @@ inline void Direct_bound::gather_edges()
     for (const Index e : reference_.edges_at(moved.vertex)) gather_edge(e);
   for (const Index spoke : disc_->old_spoke)
     map_.for_each_node_on_m(spoke, [&](Index n) { gather_edge(map_.node(n).t_edge); });
-  if (disc_->removed == none) gather_edges_of_flip();
+  if (disc_->kind == Disc::Kind::flip) gather_edges_of_flip();
 }
 
 // Each face of a flip has two link edges: a T edge may run through a face from one to the other
@@ -142,8 +198,8 @@ inline void Direct_bound::gather_edges_of_flip()
       for (const Index e : reference_.edges_at(v)) gather_edge(e);
     });
   }
-  const Index a = disc_->ring[1], b = disc_->ring[3];
-  if (!map_.image(a).is(Element::Kind::vertex, a)) return;
+  const Index a = map_.pin(disc_->ring[1]), b = map_.pin(disc_->ring[3]);
+  if (a == none || b == none) return;
   for (const Index e : reference_.edges_at(a))
     if (reference_.other_end(e, a) == b) gather_edge(e);
 }
@@ -152,15 +208,22 @@ inline bool Direct_bound::stop_at_vertex(Index v, double lambda, Stop& stop) con
 {
   const Index slot = slot_of_vertex(v);
   if (slot != none) {
-    stop = {vertices_[slot].low, vertices_[slot].high, lambda};
+    stop = {vertices_[slot].low, vertices_[slot].count, lambda};
     return true;
   }
   const Element element = map_.image(v);
   if (element.kind() == Element::Kind::vertex) {
+    if (element.id() == disc_->apex) {
+      if (disc_->is_closed())
+        stop = {0, disc_->size(), lambda};
+      else
+        stop = {disc_->first, disc_->last + 1 - disc_->first, lambda};
+      return true;
+    }
     const Index j = disc_->position_in_ring(element.id());
     if (j == none) return false;
-    stop = j == 0 ? Stop{disc_->first, disc_->last, lambda}
-                  : Stop{std::max(j - 1, disc_->first), std::min(j, disc_->last), lambda};
+    const Side at_spoke = faces_at_spoke(j);
+    stop = {at_spoke.low, at_spoke.count, lambda};
     return true;
   }
   if (element.kind() == Element::Kind::face) return false;
@@ -171,13 +234,20 @@ inline bool Direct_bound::stop_at_node(const Pending_node& node, Stop& stop) con
 {
   const Index i = disc_->position_in_link(node.m_edge);
   if (i == none) return false;
-  const Index face = disc_->fan_face_at_link(i);
-  stop = {face, face, node.lambda};
+  stop = {disc_->fan_face_at_link(i), 1, node.lambda};
   return true;
 }
 
 inline Verdict Direct_bound::route_edges()
 {
+  if (disc_->is_closed()) {
+    fan_normal_ = Vector::Zero();
+    disc_->for_each_new_face([&](Index i) {
+      if (mesh_.is_ghost_face(disc_->face[i])) return;
+      const Vector a = mesh_.point(disc_->ring[i]) - disc_->apex_point;
+      fan_normal_ += a.cross(mesh_.point(disc_->ring[disc_->after(i)]) - disc_->apex_point);
+    });
+  }
   for (Index slot = 0; slot < edges_.size(); ++slot) {
     edges_[slot].first = static_cast<Index>(nodes_.size());
     const Verdict verdict = route(edges_[slot].edge);
@@ -195,7 +265,7 @@ inline Verdict Direct_bound::route(Index e)
   bool through_disc = slot_of_vertex(s) != none;
   Index previous = none; // the node before, none: vertex s
   const auto join = [&](Index next, double lambda_of_next) {
-    if (!through_disc && (disc_->removed != none || !runs_inside(e, previous, next)))
+    if (!through_disc && (disc_->kind != Disc::Kind::flip || !runs_inside(e, previous, next)))
       return Verdict::accept;
     Stop from, to;
     const bool known
@@ -257,35 +327,69 @@ inline bool Direct_bound::runs_inside(Index e, Index previous, Index next) const
 
 inline Verdict Direct_bound::connect(Index e, const Stop& from, const Stop& to)
 {
-  double lambda = from.lambda;
-  const auto step = [&](Index spoke) {
-    if (spoke == disc_->ridge) return Verdict::correspondence;
-    if (!cross(e, spoke, lambda, to.lambda)) return Verdict::deviation;
-    lambda = nodes_.back().lambda;
-    return Verdict::accept;
-  };
-  for (Index spoke = from.high + 1; from.high < to.low && spoke <= to.low; ++spoke) {
-    const Verdict verdict = step(spoke);
-    if (verdict != Verdict::accept) return verdict;
-  }
-  for (Index spoke = from.low; to.high < from.low && spoke > to.high; --spoke) {
-    const Verdict verdict = step(spoke);
-    if (verdict != Verdict::accept) return verdict;
-  }
+  return disc_->is_closed() ? connect_in_closed_fan(e, from, to) : connect_in_open_fan(e, from, to);
+}
+
+inline Verdict Direct_bound::connect_in_open_fan(Index e, const Stop& from, const Stop& to)
+{
+  if (from.low + from.count <= to.low) return cross_all(e, from, to, true);
+  if (to.low + to.count <= from.low) return cross_all(e, from, to, false);
   return Verdict::accept;
 }
 
-inline bool Direct_bound::cross(Index e, Index spoke, double low, double high)
+/// There are two ways round the apex. The one on which the T edge passes it is tried first.
+inline Verdict Direct_bound::connect_in_closed_fan(Index e, const Stop& from, const Stop& to)
 {
+  const Index n = disc_->size();
+  const auto holds
+      = [n](const Stop& stop, Index face) { return (face + n - stop.low) % n < stop.count; };
+  if (holds(from, to.low) || holds(to, from.low)) return Verdict::accept;
+  const bool counter_clockwise = passes_apex_on_left(e, from.lambda, to.lambda);
+  const std::size_t before = nodes_.size();
+  const Verdict verdict = cross_all(e, from, to, counter_clockwise);
+  if (verdict == Verdict::accept) return verdict;
+  nodes_.resize(before);
+  return cross_all(e, from, to, !counter_clockwise);
+}
+
+inline bool Direct_bound::passes_apex_on_left(Index e, double from, double to) const
+{
+  const Vector a = point_on_edge(e, from) - disc_->apex_point;
+  const Vector b = point_on_edge(e, to) - disc_->apex_point;
+  return a.cross(b).dot(fan_normal_) > 0;
+}
+
+/// Crosses the spokes between two places, from face to face in one sense of rotation.
+inline Verdict Direct_bound::cross_all(
+    Index e, const Stop& from, const Stop& to, bool counter_clockwise)
+{
+  const Index n = disc_->size();
+  double lambda = from.lambda;
+  Index spoke = counter_clockwise ? (from.low + from.count) % n : from.low;
+  const Index last = counter_clockwise ? to.low : (to.low + to.count) % n;
+  for (;;) {
+    const Verdict verdict = cross(e, spoke, lambda, to.lambda);
+    if (verdict != Verdict::accept || spoke == last) return verdict;
+    lambda = nodes_.back().lambda;
+    spoke = counter_clockwise ? disc_->after(spoke) : disc_->before(spoke);
+  }
+}
+
+inline Verdict Direct_bound::cross(Index e, Index spoke, double low, double high)
+{
+  if (disc_->is_ridge_spoke(spoke) || mesh_.is_ghost_vertex(disc_->ring[spoke]))
+    return Verdict::correspondence;
   const auto [s, t] = reference_.vertices_of_edge(e);
   const Vector& a = reference_.point(s);
   const Vector d = reference_.point(t) - a;
-  const Vector& apex = point(disc_->apex());
-  const Vector along = point(disc_->ring[spoke]) - apex;
+  const Vector& apex = disc_->apex_point;
+  const Vector along = mesh_.point(disc_->ring[spoke]) - apex;
   const double lambda = closest_parameter(a, d, low, high, apex, along);
-  if (!(squared_distance_to_segment(a + lambda * d, apex, along) <= squared_limit_)) return false;
+  if (!(squared_distance_to_segment(a + lambda * d, apex, along)
+        <= tolerance_.squared_limit(s, t, lambda)))
+    return Verdict::deviation;
   nodes_.push_back({none, disc_->spoke[spoke], lambda});
-  return true;
+  return Verdict::accept;
 }
 
 inline bool Direct_bound::extends_over_faces()
@@ -301,7 +405,8 @@ inline bool Direct_bound::extends_over_faces()
   return true;
 }
 
-inline bool Direct_bound::extends_over(Index face)
+/// Whether there is anything to cut: not so where all corners lie in one face.
+inline bool Direct_bound::collect_items(Index face)
 {
   const auto& edges = reference_.edges_of_face(face);
   const auto corners = reference_.vertices_of_face(face);
@@ -310,10 +415,35 @@ inline bool Direct_bound::extends_over(Index face)
     items_.push_back(item_at_vertex(corners[i]));
     append_nodes(edges[i], reference_.vertices_of_edge(edges[i])[0] == corners[i]);
   }
-  if (items_.size() == 3 && items_[0].element == items_[1].element
-      && items_[0].element == items_[2].element)
-    return true;
-  return cells_.triangulates(items_, After_disc(mesh_, *disc_));
+  return items_.size() > 3 || !(items_[0].element == items_[1].element)
+      || !(items_[0].element == items_[2].element);
+}
+
+inline bool Direct_bound::extends_over(Index face)
+{
+  if (!collect_items(face) || cells_.triangulates(items_, After_disc(mesh_, *disc_))) return true;
+  const auto inner = inner_item(face);
+  return inner && inner->squared_distance <= limit_at(*inner);
+}
+
+/// The inner item of a triangle whose items triangulates() could not cut.
+inline std::optional<Inner_item> Direct_bound::inner_item(Index face)
+{
+  const Index vertex = Cell_search::winding_vertex(items_, After_disc(mesh_, *disc_));
+  if (vertex == none || mesh_.is_ghost_vertex(vertex)) return std::nullopt;
+  const auto corner = reference_.sorted_vertices_of_face(face);
+  const Vector& a = reference_.point(corner[0]);
+  const Vector ab = reference_.point(corner[1]) - a, ac = reference_.point(corner[2]) - a;
+  const Triangle_weights weights = closest_weights(point(vertex), a, ab, ac);
+  const double squared = (point(vertex) - a - weights.v * ab - weights.w * ac).squaredNorm();
+  return Inner_item{face, vertex, weights, squared};
+}
+
+inline double Direct_bound::limit_at(const Inner_item& inner) const
+{
+  const auto corner = reference_.sorted_vertices_of_face(inner.face);
+  return tolerance_.squared_limit(
+      corner[0], corner[1], corner[2], inner.weights.v, inner.weights.w);
 }
 
 inline void Direct_bound::append_nodes(Index e, bool forward)
@@ -343,7 +473,7 @@ inline Item Direct_bound::item_on_edge(Index m_edge) const
   Item item{Element(Element::Kind::edge, m_edge), {none, none}};
   const Index spoke = disc_->position_of_new_spoke(m_edge);
   if (spoke != none) {
-    item.face[0] = disc_->face[spoke - 1];
+    item.face[0] = disc_->face[disc_->before(spoke)];
     item.face[1] = disc_->face[spoke];
   } else {
     const Index link = disc_->position_in_link(m_edge);
@@ -362,11 +492,14 @@ inline void Direct_bound::commit(const Disc& disc)
 {
   for (const Index f : disc.old_face)
     if (!mesh_.is_ghost_face(f)) map_.clear_face(f);
-  if (disc.ridge != 0) {
-    map_.clear_edge(disc.old_spoke[0]);
-    map_.clear_edge(disc.old_spoke[disc.ridge]);
-  }
+  for (int k = 0; k < 2 && disc.ridge[k] != none; ++k)
+    for (const Index old : disc.old_ridge[k])
+      if (old != none) map_.clear_edge(old);
+  if (disc.removed != none) map_.clear_pin(disc.removed);
+  if (!disc.keeps_pin) map_.clear_pin(disc.apex);
   for (const Moved_vertex& moved : vertices_) map_.assign(moved.vertex, moved.image);
+  if (journal_.is_recording())
+    for (const Routed_edge& routed : edges_) touched_edges_.push_back(routed.edge);
 
   for (const Routed_edge& routed : edges_) {
     // Kept nodes appear in both lists in the same order: what is missing from the new one goes.
@@ -404,67 +537,121 @@ inline void Direct_bound::commit(const Disc& disc)
 /// sixteenth of the tolerance is all the same.
 inline Deviation_policy::Forecast Direct_bound::forecast(const Disc& disc) const
 {
-  const double negligible = squared_limit_ / 256;
+  const double negligible = tolerance_.squared_limit_of_largest() / 256;
   Forecast result{negligible, negligible};
   Index face = none;
-  for (const Index f : disc.old_face) {
+  for (Index i = 0; i < disc.old_face.size(); ++i) {
+    const Index f = disc.old_face[i];
     if (mesh_.is_ghost_face(f)) continue;
+    const Side side = side_of_place(disc, disc.old_place[i]);
     const auto corner = mesh_.vertices_of(f);
-    const Vector& a = point(corner[0]);
-    const Vector ab = point(corner[1]) - a, ac = point(corner[2]) - a;
+    const Vector& a = mesh_.point(corner[0]);
+    const Vector ab = mesh_.point(corner[1]) - a, ac = mesh_.point(corner[2]) - a;
     map_.for_each_vertex_on_face(f, [&](Index v) {
       const Vector& p = reference_.point(v);
       result.before = std::max(result.before, squared_distance_to_triangle(p, a, ab, ac));
-      result.after = std::max(result.after, nearest_face(disc, p, disc.first, disc.last, face));
+      result.after = std::max(result.after, nearest_face(disc, p, side, face));
     });
   }
-  for (const Index spoke : disc.old_spoke) {
-    const Index h = mesh_.halfedge(spoke);
-    const Vector& a = point(mesh_.source(h));
-    const Vector along = point(mesh_.target(h)) - a;
+  for (const Index spoke : disc.old_spoke)
     map_.for_each_node_on_m(spoke, [&](Index n) {
-      const auto [s, t] = reference_.vertices_of_edge(map_.node(n).t_edge);
-      const Vector& x = reference_.point(s);
-      const Vector p = x + map_.node(n).lambda * (reference_.point(t) - x);
-      result.before = std::max(result.before, squared_distance_to_segment(p, a, along));
-      result.after = std::max(result.after, nearest_face(disc, p, disc.first, disc.last, face));
+      const Vector p = point_on_edge(map_.node(n).t_edge, map_.node(n).lambda);
+      result.before = std::max(result.before, squared_distance_to_m_edge(p, spoke));
+      const Side all
+          = disc.is_closed() ? Side{0, disc.size()} : Side{disc.first, disc.last + 1 - disc.first};
+      result.after = std::max(result.after, nearest_face(disc, p, all, face));
     });
+  return result;
+}
+
+inline double Direct_bound::largest_ratio_on_face(Index m_face) const
+{
+  double largest = 0;
+  map_.for_each_vertex_on_face(m_face, [&](Index v) {
+    const double squared = squared_distance_to_m_face(reference_.point(v), m_face);
+    largest = std::max(largest, squared / tolerance_.squared_limit(v));
+  });
+  return largest;
+}
+
+inline double Direct_bound::largest_ratio_on_edge(Index m_edge) const
+{
+  double largest = 0;
+  map_.for_each_vertex_on_edge(m_edge, [&](Index v) {
+    const double squared = squared_distance_to_m_edge(reference_.point(v), m_edge);
+    largest = std::max(largest, squared / tolerance_.squared_limit(v));
+  });
+  map_.for_each_node_on_m(m_edge, [&](Index n) {
+    const Node& node = map_.node(n);
+    const double squared
+        = squared_distance_to_m_edge(point_on_edge(node.t_edge, node.lambda), m_edge);
+    largest = std::max(largest, squared / limit_on_edge(node.t_edge, node.lambda));
+  });
+  return largest;
+}
+
+inline double Direct_bound::largest_inner_ratio_of_transaction()
+{
+  forget_disc();
+  double largest = 0;
+  for (const Index e : touched_edges_)
+    for (const Index f : reference_.faces_of_edge(e)) {
+      if (f == none || !collect_items(f)
+          || cells_.triangulates(items_, After_disc(mesh_, no_disc_)))
+        continue;
+      const auto inner = inner_item(f);
+      if (!inner) return std::numeric_limits<double>::infinity();
+      largest = std::max(largest, inner->squared_distance / limit_at(*inner));
+    }
+  return largest;
+}
+
+inline std::vector<Inner_item> Direct_bound::inner_items()
+{
+  forget_disc();
+  std::vector<Inner_item> result;
+  for (Index f = 0; f < reference_.number_of_faces(); ++f) {
+    if (!collect_items(f) || cells_.triangulates(items_, After_disc(mesh_, no_disc_))) continue;
+    if (const auto inner = inner_item(f)) result.push_back(*inner);
   }
   return result;
 }
 
-inline std::vector<double> Direct_bound::face_bounds() const
+inline std::vector<double> Direct_bound::face_bounds()
 {
   std::vector<double> squared(mesh_.number_of_real_faces(), -1);
   const auto raise = [&](Index f, double value) {
     if (!mesh_.is_ghost_face(f)) squared[f] = std::max(squared[f], value);
   };
   const auto raise_edge = [&](const Vector& p, Index e) {
-    const Index h = mesh_.halfedge(e);
-    const Vector& a = point(mesh_.source(h));
-    const double value = squared_distance_to_segment(p, a, point(mesh_.target(h)) - a);
-    raise(mesh_.face(h), value);
-    raise(mesh_.face(mesh_.opposite(h)), value);
+    const double value = squared_distance_to_m_edge(p, e);
+    raise(mesh_.face(mesh_.halfedge(e)), value);
+    raise(mesh_.face(mesh_.opposite(mesh_.halfedge(e))), value);
+  };
+  const auto raise_star = [&](Index m_vertex, double value) {
+    mesh_.for_each_outgoing(m_vertex, [&](Index h) { raise(mesh_.face(h), value); });
   };
   for (Index v = 0; v < reference_.number_of_vertices(); ++v) {
     const Element element = map_.image(v);
-    if (element.kind() == Element::Kind::edge) raise_edge(reference_.point(v), element.id());
-    if (element.kind() != Element::Kind::face) continue;
-    const auto corner = mesh_.vertices_of(element.id());
-    const Vector& a = point(corner[0]);
-    raise(
-        element.id(),
-        squared_distance_to_triangle(
-            reference_.point(v), a, point(corner[1]) - a, point(corner[2]) - a));
+    const Vector& p = reference_.point(v);
+    if (element.kind() == Element::Kind::edge)
+      raise_edge(p, element.id());
+    else if (element.kind() == Element::Kind::face)
+      raise(element.id(), squared_distance_to_m_face(p, element.id()));
+    else if (p != mesh_.point(element.id()))
+      raise_star(element.id(), (p - mesh_.point(element.id())).squaredNorm());
   }
-  for (Index e = 0; e < reference_.number_of_edges(); ++e) {
-    const auto [s, t] = reference_.vertices_of_edge(e);
-    const Vector& a = reference_.point(s);
+  for (Index e = 0; e < reference_.number_of_edges(); ++e)
     for (Index n = map_.first_node_of_t(e); n != none; n = map_.node(n).next_on_t)
-      raise_edge(a + map_.node(n).lambda * (reference_.point(t) - a), map_.node(n).m_edge);
-  }
+      raise_edge(point_on_edge(e, map_.node(n).lambda), map_.node(n).m_edge);
+  for (const Inner_item& inner : inner_items()) raise_star(inner.m_vertex, inner.squared_distance);
+  double largest_coordinate = reference_.largest_coordinate();
+  for (Index v = 0; v < mesh_.number_of_real_vertices(); ++v)
+    if (mesh_.is_live_vertex(v))
+      largest_coordinate = std::max(largest_coordinate, mesh_.point(v).cwiseAbs().maxCoeff());
+  const Rounding rounding(largest_coordinate);
   // A face that only pinned vertices map to coincides with T.
-  for (double& value : squared) value = value < 0 ? 0 : rounding_.upper_bound(value);
+  for (double& value : squared) value = value < 0 ? 0 : rounding.upper_bound(value);
   return squared;
 }
 

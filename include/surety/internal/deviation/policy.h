@@ -31,7 +31,7 @@ public:
   }
 
   /// b(K), an upper bound of the two-sided distance at face K; see section 2.1 of the paper.
-  virtual std::vector<double> face_bounds() const = 0;
+  virtual std::vector<double> face_bounds() = 0;
 };
 
 } // namespace surety::internal

@@ -79,6 +79,19 @@ public:
     }
     return corner;
   }
+  /// The vertices of a face in the order of the user's mesh.
+  std::array<Index, 3> sorted_vertices_of_face(Index f) const
+  {
+    // Of the three directed edges one leads from the first to the last, past the second.
+    const auto& e = face_edges_[f];
+    for (int i = 0; i < 3; ++i) {
+      const auto &ends = edge_vertices_[e[i]], &other = edge_vertices_[e[(i + 1) % 3]],
+                 &third = edge_vertices_[e[(i + 2) % 3]];
+      if (other[0] == ends[0] && third[1] == other[1]) return {ends[0], ends[1], other[1]};
+      if (third[0] == ends[0] && other[1] == third[1]) return {ends[0], ends[1], third[1]};
+    }
+    return {none, none, none};
+  }
   Vector normal_of_face(Index f) const
   {
     const auto v = vertices_of_face(f);

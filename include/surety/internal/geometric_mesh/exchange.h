@@ -111,14 +111,22 @@ double normalising_scale(const Mesh& mesh, const Points& points)
   return std::ldexp(1.0, -exponent);
 }
 
+/// The points by position, scaled.
 template <class Mesh, class Points>
-Reference make_reference(
-    const Elements<Mesh>& elements, const Points& points, double scale,
-    const Working_mesh::Connectivity& connectivity)
+std::vector<Vector> points_in_order(
+    const Elements<Mesh>& elements, const Points& points, double scale)
 {
   std::vector<Vector> coordinates;
   coordinates.reserve(elements.vertices.size());
   for (const auto v : elements.vertices) coordinates.push_back(scale * to_vector(get(points, v)));
+  return coordinates;
+}
+
+template <class Mesh>
+Reference make_reference(
+    const Elements<Mesh>& elements, std::vector<Vector> coordinates,
+    const Working_mesh::Connectivity& connectivity)
+{
   return Reference(
       std::move(coordinates), connectivity.next, connectivity.target, connectivity.face,
       connectivity.faces, elements.input_position);
@@ -136,12 +144,26 @@ std::vector<bool> features_in_order(const Elements<Mesh>& elements, const Featur
 template <class Mesh>
 Working_mesh make_working_mesh(
     const Elements<Mesh>& elements, const Features& features,
-    Working_mesh::Connectivity connectivity)
+    Working_mesh::Connectivity connectivity, std::vector<Vector> points, Journal& journal)
 {
   std::vector<bool> fixed(elements.vertices.size());
   for (Index v = 0; v < fixed.size(); ++v) fixed[v] = features.corner[elements.vertices[v]];
   return Working_mesh(
-      std::move(connectivity), features_in_order(elements, features), std::move(fixed));
+      std::move(connectivity), std::move(points), features_in_order(elements, features),
+      std::move(fixed), journal);
+}
+
+/// Where each face stands in the iteration order of the mesh.
+template <class Mesh>
+std::vector<Index> face_positions(const Elements<Mesh>& elements, const Mesh& mesh)
+{
+  std::vector<Index> position_of(mesh.num_faces());
+  Index position = 0;
+  for (const auto f : mesh.faces()) position_of[f] = position++;
+  std::vector<Index> result;
+  result.reserve(elements.faces.size());
+  for (const auto f : elements.faces) result.push_back(position_of[f]);
+  return result;
 }
 
 /// Gives the mesh the connectivity of `result`, which was read from it. Allocates nothing, so that
@@ -181,6 +203,20 @@ void write_connectivity(const Working_mesh& result, const Elements<Mesh>& elemen
     const auto first = mesh.halfedge(elements.faces[f]);
     if (mesh.is_removed(mesh.edge(first)) || mesh.face(first) != elements.faces[f])
       mesh.set_halfedge(elements.faces[f], elements.halfedge(mesh, result.halfedge_in(f)));
+  }
+}
+
+/// Writes the points of the vertices that were moved; as exact as `scale`, a power of two.
+template <class Mesh, class Points>
+void write_points(
+    const Working_mesh& result, const Reference& reference, const Elements<Mesh>& elements,
+    double scale, const Points& points)
+{
+  for (Index v = 0; v < elements.vertices.size(); ++v) {
+    if (!result.is_live_vertex(v) || result.point(v) == reference.point(v)) continue;
+    const Vector p = result.point(v) / scale;
+    using Point = typename boost::property_traits<Points>::value_type;
+    put(points, elements.vertices[v], Point(p.x(), p.y(), p.z()));
   }
 }
 

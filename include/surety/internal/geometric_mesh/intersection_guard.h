@@ -5,9 +5,9 @@
 #ifndef SURETY_INTERNAL_GEOMETRIC_MESH_INTERSECTION_GUARD_H
 #define SURETY_INTERNAL_GEOMETRIC_MESH_INTERSECTION_GUARD_H
 
-#include <surety/internal/deviation/reference.h>
 #include <surety/internal/geometric_mesh/box_tree.h>
 #include <surety/internal/operators/disc.h>
+#include <surety/internal/working_mesh.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
@@ -24,8 +24,7 @@ public:
   using Point = Kernel::Point_3;
   using Corners = std::array<Index, 3>;
 
-  Intersection_guard(const Reference& reference, const Working_mesh& mesh)
-    : reference_(reference), mesh_(mesh), origin_(reference.point(0))
+  explicit Intersection_guard(const Working_mesh& mesh) : mesh_(mesh), origin_(mesh.point(0))
   {
     build_tree();
   }
@@ -33,14 +32,47 @@ public:
   /// Whether no new face of the disc meets any other face.
   bool admits(const Disc& disc)
   {
+    disc_ = &disc;
+    const bool result = admits_fan(disc);
+    disc_ = nullptr;
+    return result;
+  }
+
+  /// Follows M after it has taken the disc.
+  void commit(const Disc& disc) { refresh(disc.old_face); }
+  /// Follows M where some faces have changed.
+  void refresh(const std::vector<Index>& faces)
+  {
+    for (const Index f : faces)
+      if (!mesh_.is_ghost_face(f))
+        tree_.set(f, mesh_.is_live_face(f) ? box_of(mesh_.vertices_of(f)) : Float_box());
+  }
+  /// To be called between operations, when none can be undone: what died is left behind.
+  void clean_up()
+  {
+    if (mesh_.number_of_live_faces() < tree_.size() / 2) build_tree();
+  }
+
+private:
+  struct Fan_face {
+    Corners corners;
+    Float_box box;
+  };
+
+  bool admits_fan(const Disc& disc)
+  {
     Float_box all;
     fan_.clear();
-    for (Index i = disc.first; i <= disc.last; ++i) {
-      const Corners corners{disc.apex(), disc.ring[i], disc.ring[i + 1]};
-      if (CGAL::collinear(point(corners[0]), point(corners[1]), point(corners[2]))) return false;
+    bool degenerate = false;
+    disc.for_each_new_face([&](Index i) {
+      if (mesh_.is_ghost_face(disc.face[i])) return;
+      const Corners corners{disc.apex, disc.ring[i], disc.ring[disc.after(i)]};
+      degenerate
+          = degenerate || CGAL::collinear(point(corners[0]), point(corners[1]), point(corners[2]));
       fan_.push_back({corners, box_of(corners)});
       all.add(fan_.back().box);
-    }
+    });
+    if (degenerate) return false;
     for (std::size_t i = 0; i < fan_.size(); ++i)
       for (std::size_t j = i + 1; j < fan_.size(); ++j)
         if (meet(fan_[i].corners, fan_[j].corners)) return false;
@@ -59,30 +91,19 @@ public:
     return admissible;
   }
 
-  /// Follows M after it has taken the disc.
-  void commit(const Disc& disc)
-  {
-    for (const Index f : disc.old_face)
-      if (!mesh_.is_ghost_face(f))
-        tree_.set(f, mesh_.is_live_face(f) ? box_of(mesh_.vertices_of(f)) : Float_box());
-    if (mesh_.number_of_live_faces() < tree_.size() / 2) build_tree();
-  }
-
-private:
-  struct Fan_face {
-    Corners corners;
-    Float_box box;
-  };
-
   Point point(Index v) const
   {
-    const Vector& p = reference_.point(v);
+    const Vector& p = vector(v);
     return {p.x(), p.y(), p.z()};
+  }
+  const Vector& vector(Index v) const
+  {
+    return disc_ != nullptr ? disc_->point(mesh_, v) : mesh_.point(v);
   }
   Float_box box_of(const Corners& corners) const
   {
     Float_box box;
-    for (const Index v : corners) box.add((reference_.point(v) - origin_).cast<float>().array());
+    for (const Index v : corners) box.add((vector(v) - origin_).cast<float>().array());
     return box;
   }
   void build_tree()
@@ -157,8 +178,8 @@ private:
     return {point(a[0]), point(a[1]), point(a[2])};
   }
 
-  const Reference& reference_;
   const Working_mesh& mesh_;
+  const Disc* disc_ = nullptr; ///< the operation that is being looked at
   Vector origin_;
   Box_tree tree_;
   std::vector<Fan_face> fan_;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Quadric error (Garland and Heckbert, 1997): the order in which collapses are tried. It is a cost
-// and never a bound.
+// Quadric error (Garland and Heckbert, 1997): the order in which collapses are tried, and where a
+// free vertex goes. It is a cost and never a bound.
 #ifndef SURETY_INTERNAL_GEOMETRIC_MESH_QUADRIC_H
 #define SURETY_INTERNAL_GEOMETRIC_MESH_QUADRIC_H
 
 #include <surety/internal/linear.h>
+
+#include <Eigen/Cholesky>
 
 namespace surety::internal {
 
@@ -33,12 +35,25 @@ public:
     c_ += o.c_;
     return *this;
   }
+  friend Quadric operator+(Quadric a, const Quadric& b) { return a += b; }
 
   double operator()(const Vector& p) const
   {
     const double x = p.x(), y = p.y(), z = p.z();
     return x * (xx_ * x + 2 * (xy_ * y + xz_ * z)) + y * (yy_ * y + 2 * yz_ * z) + zz_ * z * z
         - 2 * b_.dot(p) + c_;
+  }
+
+  /// Where it is least, with a pull towards p of 1e-4 of its weight, which decides where the planes
+  /// leave a choice.
+  Vector minimum_near(const Vector& p) const
+  {
+    Eigen::Matrix3d a;
+    a << xx_, xy_, xz_, xy_, yy_, yz_, xz_, yz_, zz_;
+    const double pull = 1e-4 * a.trace();
+    if (!(pull > 0)) return p;
+    a.diagonal().array() += pull;
+    return a.ldlt().solve(b_ + pull * p);
   }
 
 private:

@@ -6,7 +6,7 @@
 #define SURETY_INTERNAL_GEOMETRIC_MESH_RECORD_H
 
 #include <surety/correspondence.h>
-#include <surety/internal/deviation/map.h>
+#include <surety/internal/deviation/direct_bound.h>
 #include <surety/internal/deviation/reference.h>
 #include <surety/internal/geometric_mesh/exchange.h>
 
@@ -30,12 +30,23 @@ public:
   {}
 
   /// `is_ridge` tells the edges of T whose curve is certified; borders go without saying.
-  Correspondence record(const std::vector<bool>& is_ridge) const
+  /// `face_position` tells where each face of T stands in the user's mesh.
+  Correspondence record(
+      const std::vector<bool>& is_ridge, const std::vector<Inner_item>& inner_items,
+      const std::vector<Index>& face_position) const
   {
     Correspondence result;
     result.images.resize(reference_.number_of_vertices());
     for (Index v = 0; v < reference_.number_of_vertices(); ++v)
       result.images[input_position_[v]] = image_of(map_.image(v));
+
+    for (const Inner_item& inner : inner_items)
+      result.inner.push_back(
+          {face_position[inner.face], compaction_.vertex[inner.m_vertex], inner.weights.v,
+           inner.weights.w});
+    std::sort(result.inner.begin(), result.inner.end(), [](const auto& a, const auto& b) {
+      return a.face < b.face;
+    });
 
     std::vector<Index> order;
     for (Index e = 0; e < reference_.number_of_edges(); ++e) {

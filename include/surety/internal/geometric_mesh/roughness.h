@@ -31,15 +31,27 @@ public:
     for (Index v = 0; v < reference.number_of_vertices(); ++v) keep_cone_if_sharp(v);
   }
 
-  template <class Points>
-  bool admits(const Disc& disc, const Working_mesh& mesh, const Points& points) const
+  bool admits(const Disc& disc, const Working_mesh& mesh) const
   {
     double worst = 1;
-    for (Index i = disc.first; i <= disc.last; ++i)
-      worst = std::min(worst, alignment({disc.apex(), disc.ring[i], disc.ring[i + 1]}, points));
+    disc.for_each_new_face([&](Index i) {
+      if (mesh.is_ghost_face(disc.face[i])) return;
+      const Index r = disc.ring[i], next = disc.ring[disc.after(i)];
+      worst = std::min(
+          worst,
+          alignment(
+              {disc.apex_point, mesh.point(r), mesh.point(next)},
+              {disc.anchor, mesh.anchor(r), mesh.anchor(next)}));
+    });
     if (worst >= cosine_) return true;
-    for (const Index f : disc.old_face)
-      if (!mesh.is_ghost_face(f) && alignment(mesh.vertices_of(f), points) <= worst) return true;
+    for (const Index f : disc.old_face) {
+      if (mesh.is_ghost_face(f)) continue;
+      const auto v = mesh.vertices_of(f);
+      const double before = alignment(
+          {mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])},
+          {mesh.anchor(v[0]), mesh.anchor(v[1]), mesh.anchor(v[2])});
+      if (before <= worst) return true;
+    }
     return false;
   }
 
@@ -57,15 +69,14 @@ private:
     }
   }
 
-  /// The least <nu(P_j), n(K)> over the corners of K. Where T is sharp at P_j no single normal
-  /// stands for it: the best of its faces' normals is asked there.
-  template <class Points>
-  double alignment(const std::array<Index, 3>& corner, const Points& points) const
+  /// The least <nu(P_j), n(K)> over the corners of K, where nu(P_j) is the normal at a vertex of T
+  /// near P_j. Where T is sharp there no single normal stands for it: the best of its faces'
+  /// normals is asked.
+  double alignment(const std::array<Vector, 3>& corner, const std::array<Index, 3>& anchor) const
   {
-    const Vector& a = points(corner[0]);
-    const Vector n = unit((points(corner[1]) - a).cross(points(corner[2]) - a));
+    const Vector n = unit((corner[1] - corner[0]).cross(corner[2] - corner[0]));
     double least = 1;
-    for (const Index v : corner) {
+    for (const Index v : anchor) {
       double cosine = n.dot(normal_[v].template cast<double>());
       if (cosine < cosine_ && cone_[v] != none) cosine = std::max(cosine, best_of_cone(v, n));
       least = std::min(least, cosine);

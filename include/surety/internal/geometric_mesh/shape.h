@@ -28,20 +28,23 @@ class Shape_control
 public:
   Shape_control(double ratio, double floor) : ratio_(ratio), floor_(floor) {}
 
-  /// Points is called with the index of a vertex of M.
-  template <class Points>
-  bool admits(const Disc& disc, const Working_mesh& mesh, const Points& points) const
+  bool admits(const Disc& disc, const Working_mesh& mesh) const
   {
     double worst = 0;
-    const Vector& apex = points(disc.apex());
-    for (Index i = disc.first; i <= disc.last; ++i)
-      worst = std::max(worst, shape_quality(apex, points(disc.ring[i]), points(disc.ring[i + 1])));
+    disc.for_each_new_face([&](Index i) {
+      if (mesh.is_ghost_face(disc.face[i])) return;
+      worst = std::max(
+          worst,
+          shape_quality(
+              disc.apex_point, mesh.point(disc.ring[i]), mesh.point(disc.ring[disc.after(i)])));
+    });
     if (worst <= floor_) return true;
     if (!std::isfinite(worst)) return false;
     for (const Index f : disc.old_face) {
       if (mesh.is_ghost_face(f)) continue;
       const auto v = mesh.vertices_of(f);
-      if (worst <= ratio_ * shape_quality(points(v[0]), points(v[1]), points(v[2]))) return true;
+      if (worst <= ratio_ * shape_quality(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])))
+        return true;
     }
     return false;
   }

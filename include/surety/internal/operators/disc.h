@@ -1,35 +1,65 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The disc that an operator retriangulates: its ring, what goes and what comes. The new faces are a
-// fan about the first vertex of the ring, which serves a collapse P -> Q (the star of P becomes a
-// fan about Q) and a flip (two faces become a fan about one of their apices) alike.
+// fan about an apex. In an *open* fan the apex is the first vertex of the ring: a half-edge
+// collapse P -> Q (the star of P becomes a fan about Q) or a flip (two faces become a fan about one
+// of their apices). In a *closed* fan the apex is inside the ring: a collapse P -> Q with placement
+// (the stars of both become the star of Q) or a relocation of Q.
 #ifndef SURETY_INTERNAL_OPERATORS_DISC_H
 #define SURETY_INTERNAL_OPERATORS_DISC_H
 
 #include <surety/internal/working_mesh.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace surety::internal {
 
-/// ring[0] is the apex Q. With k ring vertices the new faces are F_i = (Q, r_i, r_{i+1}) for
-/// i = 1 .. k-2, in linear order; the new spoke s_i = (Q, r_i), i = 2 .. k-2, parts F_{i-1} from
-/// F_i.
+/// With k ring vertices the new faces are F_i = (apex, r_i, r_{i+1}): for i = 1 .. k-2 in an open
+/// fan, where r_0 is the apex; for all i, modulo k, in a closed one. The new spoke s_i = (apex,
+/// r_i) parts F_{i-1} from F_i.
 struct Disc {
-  std::vector<Index> ring;  ///< r_0 = Q, r_1, ..., r_{k-1}, counter-clockwise
-  std::vector<Index> link;  ///< edge (r_i, r_{i+1}) of the ring
-  std::vector<Index> face;  ///< face[i] = index that F_i takes; entries 0 and k-1 unused
-  std::vector<Index> spoke; ///< spoke[i] = index that s_i takes; entries 0, 1, k-1 unused
-  std::vector<Index>
-      old_face; ///< faces of the disc before; for a collapse old_face[i] = (P, r_i, r_{i+1})
-  std::vector<Index> old_spoke; ///< edges inside the disc before; for a collapse (P, r_i)
-  Index removed = none;         ///< P, or none for a flip
-  Index ridge = 0;              ///< m where the ridge through P goes on along s_m; 0: no ridge
-  Index first = 1, last = 0;    ///< the fan's faces that are not ghosts: F_first .. F_last
+  enum class Kind { collapse, flip, placement, relocation };
 
+  Kind kind = Kind::collapse;
+  Index halfedge = none; ///< P -> Q, or the half-edge that is flipped
+  Index apex = none;
+  Vector apex_point;    ///< where the apex comes to lie
+  Index anchor = none;  ///< a vertex of T near that point
+  Index removed = none; ///< P, or none
+
+  std::vector<Index> ring;      ///< r_0, r_1, ..., r_{k-1}, counter-clockwise
+  std::vector<Index> link;      ///< edge (r_i, r_{i+1}) of the ring
+  std::vector<Index> face;      ///< face[i]: index that F_i takes
+  std::vector<Index> spoke;     ///< spoke[i]: index that s_i takes
+  std::vector<Index> old_face;  ///< faces of the disc before
+  std::vector<Index> old_place; ///< for each of them, the place in the ring that it touches
+  std::vector<Index> old_spoke; ///< edges inside the disc before
+
+  /// New spokes that carry the ridge or border through the disc, the smaller first, or none. An
+  /// open fan has one at most: the ridge leaves it at the apex.
+  std::array<Index, 2> ridge{none, none};
+  /// Edges inside the disc, before, whose T vertices belong on each of the new ridge spokes.
+  std::array<std::array<Index, 2>, 2> old_ridge;
+  bool keeps_pin = false;    ///< the T vertex that goes to the apex goes there still
+  Index first = 1, last = 0; ///< of an open fan: its real faces are F_first .. F_last
+
+  bool is_closed() const { return kind == Kind::placement || kind == Kind::relocation; }
   Index size() const { return static_cast<Index>(ring.size()); }
-  Index apex() const { return ring[0]; }
+  Index after(Index i) const { return i + 1 == size() ? 0 : i + 1; }
+  Index before(Index i) const { return i == 0 ? size() - 1 : i - 1; }
+  bool is_ridge_spoke(Index i) const { return i == ridge[0] || i == ridge[1]; }
+
+  /// Calls visit(i) for each new face F_i, ghosts included where the fan is closed.
+  template <class Visit>
+  void for_each_new_face(Visit visit) const
+  {
+    if (is_closed())
+      for (Index i = 0; i < size(); ++i) visit(i);
+    else
+      for (Index i = first; i <= last; ++i) visit(i);
+  }
 
   /// Position of an edge in the link, of a vertex in the ring, of a face among the new or the old
   /// ones; `none` where it is not there. Rings are short, so that a scan is the fastest index.
@@ -39,19 +69,45 @@ struct Disc {
   Index position_of_old_spoke(Index e) const { return position(old_spoke, e); }
   Index position_of_new_face(Index f) const
   {
+    if (is_closed()) return position(face, f);
     for (Index i = 1; i + 1 < size(); ++i)
       if (face[i] == f) return i;
     return none;
   }
   Index position_of_new_spoke(Index e) const
   {
+    if (is_closed()) return position(spoke, e);
     for (Index i = 2; i + 1 < size(); ++i)
       if (spoke[i] == e) return i;
     return none;
   }
 
   /// The new face on the inner side of link edge i.
-  Index fan_face_at_link(Index i) const { return std::clamp<Index>(i, 1, size() - 2); }
+  Index fan_face_at_link(Index i) const
+  {
+    return is_closed() ? i : std::clamp<Index>(i, 1, size() - 2);
+  }
+
+  /// Puts the apex where it is before the operation.
+  void stay_at(const Working_mesh& mesh)
+  {
+    apex_point = mesh.point(apex);
+    anchor = mesh.anchor(apex);
+  }
+  /// Where a vertex of M lies after the operation.
+  const Vector& point(const Working_mesh& mesh, Index v) const
+  {
+    return v == apex ? apex_point : mesh.point(v);
+  }
+
+  void clear()
+  {
+    for (auto* list : {&ring, &link, &face, &spoke, &old_face, &old_place, &old_spoke})
+      list->clear();
+    removed = none;
+    ridge = {none, none};
+    keeps_pin = false;
+  }
 
 private:
   static Index position(const std::vector<Index>& list, Index value)
@@ -65,12 +121,16 @@ private:
 /// Fills `disc` with the collapse of the source of h into its target.
 inline void make_collapse_disc(const Working_mesh& mesh, Index h, Disc& disc)
 {
-  disc.ring.clear(), disc.link.clear(), disc.face.clear();
-  disc.spoke.clear(), disc.old_face.clear(), disc.old_spoke.clear();
+  disc.clear();
+  disc.kind = Disc::Kind::collapse;
+  disc.halfedge = h;
   disc.removed = mesh.source(h);
-  disc.ridge = 0;
+  disc.apex = mesh.target(h);
+  disc.stay_at(mesh);
+  disc.keeps_pin = true;
   Index spoke = h;
   do {
+    disc.old_place.push_back(disc.size());
     disc.ring.push_back(mesh.target(spoke));
     disc.link.push_back(mesh.edge(mesh.next(spoke)));
     disc.old_face.push_back(mesh.face(spoke));
@@ -91,16 +151,109 @@ inline void make_flip_disc(const Working_mesh& mesh, Index h, Disc& disc)
 {
   const Index o = mesh.opposite(h);
   const Index bc = mesh.next(h), ca = mesh.prev(h), ad = mesh.next(o), db = mesh.prev(o);
+  disc.clear();
+  disc.kind = Disc::Kind::flip;
+  disc.halfedge = h;
   disc.ring = {mesh.target(bc), mesh.target(ca), mesh.target(ad), mesh.target(db)};
+  disc.apex = disc.ring[0];
+  disc.stay_at(mesh);
+  disc.keeps_pin = true;
   disc.link = {mesh.edge(ca), mesh.edge(ad), mesh.edge(db), mesh.edge(bc)};
   disc.face = {none, mesh.face(h), mesh.face(o), none};
   disc.spoke = {none, none, mesh.edge(h), none};
   disc.old_face = {mesh.face(h), mesh.face(o)};
+  disc.old_place = {0, 1};
   disc.old_spoke = {mesh.edge(h)};
-  disc.removed = none;
-  disc.ridge = 0;
   disc.first = 1;
   disc.last = 2;
+}
+
+namespace discs {
+
+/// Appends the part of the star of an apex that lies between two of its half-edges, the faces on
+/// the left of each but the last.
+inline void append_star(const Working_mesh& mesh, Index first, Index last, Disc& disc)
+{
+  for (Index h = first;;) {
+    disc.old_face.push_back(mesh.face(h));
+    disc.old_place.push_back(disc.size());
+    disc.old_spoke.push_back(mesh.edge(h));
+    disc.ring.push_back(mesh.target(h));
+    disc.link.push_back(mesh.edge(mesh.next(h)));
+    disc.face.push_back(mesh.face(h));
+    disc.spoke.push_back(mesh.edge(h));
+    h = mesh.opposite(mesh.prev(h));
+    if (h == last) return;
+  }
+}
+
+/// Where a ridge comes from P's side of the ring, goes along PQ, and leaves on Q's side: there are
+/// two new ridge spokes. They are left unset where the ridge runs along an apex of PQ or branches.
+inline void find_ridge_of_placement(const Working_mesh& mesh, Index right, Disc& disc)
+{
+  Index at_p = none, at_q = none, features = 0;
+  for (Index i = 0; i < disc.size(); ++i) {
+    if (!mesh.is_feature(disc.old_spoke[i])) continue;
+    ++features;
+    (i < right ? at_p : at_q) = i;
+  }
+  // Spoke 0 is P's and spoke `right` Q's: next to PQ both are refused, and so are their twins.
+  if (features != 2 || at_p == none || at_q == none || at_p == 0 || at_q == right) return;
+  if (mesh.is_feature(disc.spoke[0])) return;
+  if (mesh.is_feature(mesh.edge(mesh.next(mesh.opposite(disc.halfedge))))) return;
+  disc.ridge = {at_p, at_q};
+  disc.old_ridge[0] = {disc.old_spoke[at_p], mesh.edge(disc.halfedge)};
+  disc.old_ridge[1] = {disc.old_spoke[at_q], none};
+  disc.keeps_pin = true;
+}
+
+} // namespace discs
+
+/// Fills `disc` with the relocation of vertex q to a point that is still to be chosen.
+inline void make_relocation_disc(const Working_mesh& mesh, Index q, Disc& disc)
+{
+  disc.clear();
+  disc.kind = Disc::Kind::relocation;
+  disc.apex = q;
+  disc.stay_at(mesh);
+  const Index h = mesh.opposite(mesh.halfedge_to(q));
+  disc.halfedge = h;
+  discs::append_star(mesh, h, h, disc);
+  Index ridges = 0;
+  for (Index i = 0; i < disc.size(); ++i) {
+    if (!mesh.is_feature(disc.spoke[i]) || ridges == 2) continue;
+    disc.old_ridge[ridges] = {disc.spoke[i], none};
+    disc.ridge[ridges++] = i;
+  }
+  disc.keeps_pin = ridges > 0;
+}
+
+/// Fills `disc` with the collapse of P = source of h into Q = its target, at a point that is still
+/// to be chosen. The ring goes from the apex left of PQ around P to the one on the right, and back
+/// around Q.
+inline void make_placement_disc(const Working_mesh& mesh, Index h, Disc& disc)
+{
+  const Index o = mesh.opposite(h);
+  const Index left_of_p = mesh.opposite(mesh.prev(h)), right_of_q = mesh.opposite(mesh.prev(o));
+  disc.clear();
+  disc.kind = Disc::Kind::placement;
+  disc.halfedge = h;
+  disc.removed = mesh.source(h);
+  disc.apex = mesh.target(h);
+  disc.stay_at(mesh);
+
+  // Around P from r_1 up to the face before P -> r_{k-1} -> Q, around Q likewise; where the two
+  // meet the spokes of Q survive.
+  discs::append_star(mesh, left_of_p, mesh.next(o), disc);
+  const Index right = disc.size();
+  discs::append_star(mesh, right_of_q, mesh.next(h), disc);
+  disc.spoke[0] = mesh.edge(mesh.next(h));
+  disc.old_spoke.insert(
+      disc.old_spoke.end(), {mesh.edge(h), mesh.edge(mesh.next(h)), mesh.edge(mesh.next(o))});
+  disc.old_face.insert(disc.old_face.end(), {mesh.face(h), mesh.face(o)});
+  // Left of PQ the ring begins and ends, right of it the two parts meet.
+  disc.old_place.insert(disc.old_place.end(), {0, right});
+  if (mesh.is_feature(mesh.edge(h))) discs::find_ridge_of_placement(mesh, right, disc);
 }
 
 } // namespace surety::internal

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Collapses in the order of their cost while any is admissible (section 2.2 of the paper).
+#ifndef SURETY_INTERNAL_GEOMETRIC_MESH_GREEDY_H
+#define SURETY_INTERNAL_GEOMETRIC_MESH_GREEDY_H
+
+#include <surety/internal/geometric_mesh/editor.h>
+#include <surety/internal/geometric_mesh/quadric.h>
+#include <surety/internal/geometric_mesh/surface_walk.h>
+#include <surety/internal/geometric_mesh/vertex_queue.h>
+#include <surety/parameters.h>
+
+#include <functional>
+#include <vector>
+
+namespace surety::internal {
+
+/// Told the stage and the share of it that is done; false cancels.
+using Report_progress = std::function<bool(const char* stage, double fraction)>;
+
+class Greedy
+{
+public:
+  /// With free placement the vertex that two interior ones become goes where its quadric is least.
+  Greedy(const Reference& reference, Editor& editor, bool places_freely)
+    : reference_(reference),
+      editor_(editor),
+      mesh_(editor.mesh()),
+      walk_(reference),
+      places_freely_(places_freely),
+      queue_(reference.number_of_vertices()),
+      quadric_(reference.number_of_vertices()),
+      best_(reference.number_of_vertices(), none),
+      refused_(2 * std::size_t(reference.number_of_edges()), false)
+  {
+    initialise_quadrics();
+    for (Index v = 0; v < reference_.number_of_vertices(); ++v) schedule(v);
+  }
+
+  /// Returns false when cancelled; M is valid and certified either way.
+  bool run(const Report_progress& report, std::size_t fewest_faces)
+  {
+    const auto goal = static_cast<double>(std::max<std::size_t>(queue_.size(), 1));
+    for (std::size_t tries = 0; !queue_.empty(); ++tries) {
+      if (mesh_.number_of_live_faces() <= fewest_faces) return true;
+      const double left = std::min(1.0, static_cast<double>(queue_.size()) / goal);
+      if (tries % 1024 == 0 && !report("collapse", 1 - left)) return false;
+      try_collapse(queue_.pop());
+    }
+    return true;
+  }
+
+  /// To be called for what others do to M: vertices of a disc that has changed, and P -> Q.
+  void retry_around(const Disc& disc)
+  {
+    for (const Index v : disc.ring) retry_around(v);
+    if (disc.is_closed()) retry_around(disc.apex);
+  }
+  void retry_around(Index v);
+  void merge(Index p, Index q)
+  {
+    quadric_[q] += quadric_[p];
+    queue_.remove(p);
+  }
+
+  /// Where the vertex that P and Q become is best according to their quadrics.
+  Vector best_place(Index p, Index q) const
+  {
+    const Vector middle = (mesh_.point(p) + mesh_.point(q)) / 2 - origin();
+    return origin() + (quadric_[p] + quadric_[q]).minimum_near(middle);
+  }
+
+private:
+  const Vector& origin() const { return reference_.point(0); }
+  void initialise_quadrics();
+  void schedule(Index p);
+  double cost(Index p, Index q) const;
+  bool can_be_placed(Index p, Index q) const
+  {
+    return places_freely_ && !mesh_.is_on_feature(p) && !mesh_.is_on_feature(q)
+        && !mesh_.is_fixed(q);
+  }
+  void try_collapse(Index p);
+  bool collapse_with_placement(Index h);
+
+  const Reference& reference_;
+  Editor& editor_;
+  const Working_mesh& mesh_;
+  Surface_walk walk_;
+  bool places_freely_;
+
+  Vertex_queue queue_;
+  std::vector<Quadric> quadric_; ///< relative to the first point
+  std::vector<Index> best_;      ///< the cheapest half-edge out of a queued vertex
+  std::vector<bool> refused_;    ///< a half-edge refused since its source's star last changed
+  Disc disc_;
+};
+
+// Planes count alike whatever the size of their face: where T is fine it is fine for a reason.
+inline void Greedy::initialise_quadrics()
+{
+  const auto point = [&](Index v) -> const Vector& { return reference_.point(v); };
+  for (Index f = 0; f < reference_.number_of_faces(); ++f) {
+    const auto v = reference_.vertices_of_face(f);
+    const Quadric q = Quadric::of_plane(point(v[0]) - origin(), reference_.normal_of_face(f), 1);
+    for (const Index corner : v) quadric_[corner] += q;
+  }
+  // Feature edges resist by a plane through them, perpendicular to their face.
+  for (Index e = 0; e < reference_.number_of_edges(); ++e) {
+    if (!mesh_.is_feature(e)) continue;
+    const auto [s, t] = reference_.vertices_of_edge(e);
+    for (const Index f : reference_.faces_of_edge(e)) {
+      if (f == none) continue;
+      const Vector side = unit((point(t) - point(s)).cross(reference_.normal_of_face(f)));
+      const Quadric q = Quadric::of_plane(point(s) - origin(), side, 1);
+      quadric_[s] += q;
+      quadric_[t] += q;
+    }
+  }
+}
+
+/// The quadric error of what p and q stand for where they are to merge, by the length of the edge:
+/// of two collapses that err alike the longer one turns the surface less. On flat ground, short
+/// edges first.
+inline double Greedy::cost(Index p, Index q) const
+{
+  constexpr double flat_ground = 1e-4;
+  const double length = (mesh_.point(p) - mesh_.point(q)).norm();
+  const Vector x = (can_be_placed(p, q) ? best_place(p, q) : mesh_.point(q)) - origin();
+  return (quadric_[p](x) + quadric_[q](x)) / length + flat_ground * length;
+}
+
+/// Queues p with its cheapest half-edge that has not been refused.
+inline void Greedy::schedule(Index p)
+{
+  if (mesh_.is_fixed(p)) return;
+  Index best = none;
+  double least = 0;
+  mesh_.for_each_outgoing(p, [&](Index h) {
+    const Index q = mesh_.target(h);
+    if (mesh_.is_ghost_vertex(q) || refused_[h]) return;
+    const double c = cost(p, q);
+    if (best == none || c < least || (c == least && h < best)) best = h, least = c;
+  });
+  best_[p] = best;
+  if (best == none)
+    queue_.remove(p);
+  else
+    queue_.set(p, least);
+}
+
+inline bool Greedy::collapse_with_placement(Index h)
+{
+  const Index p = mesh_.source(h), q = mesh_.target(h);
+  if (!can_be_placed(p, q)) return false;
+  make_placement_disc(mesh_, h, disc_);
+  disc_.apex_point = best_place(p, q);
+  disc_.anchor = walk_.closest(disc_.apex_point, walk_.face_at(mesh_.anchor(q))).nearest;
+  return editor_.try_to(disc_);
+}
+
+inline void Greedy::try_collapse(Index p)
+{
+  const Index h = best_[p], q = mesh_.target(h);
+  bool done = collapse_with_placement(h);
+  if (!done) {
+    make_collapse_disc(mesh_, h, disc_);
+    done = editor_.try_to(disc_);
+  }
+  if (!done) {
+    refused_[h] = true;
+    schedule(p);
+    return;
+  }
+  quadric_[q] += quadric_[p];
+  retry_around(disc_);
+}
+
+inline void Greedy::retry_around(Index v)
+{
+  if (mesh_.is_fixed(v)) return;
+  mesh_.for_each_outgoing(v, [&](Index h) {
+    if (h < refused_.size()) refused_[h] = false;
+  });
+  schedule(v);
+}
+
+} // namespace surety::internal
+
+#endif // SURETY_INTERNAL_GEOMETRIC_MESH_GREEDY_H

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The closest point of T to a point that is near a known face of T, by walking from face to face
+// while that comes closer: a local minimum of the distance, which is what placement wants (another
+// sheet that happens to be nearer is none of its business).
+#ifndef SURETY_INTERNAL_GEOMETRIC_MESH_SURFACE_WALK_H
+#define SURETY_INTERNAL_GEOMETRIC_MESH_SURFACE_WALK_H
+
+#include <surety/internal/deviation/closest_point.h>
+#include <surety/internal/deviation/reference.h>
+
+namespace surety::internal {
+
+struct Foot {
+  Index face = none;
+  Vector point;  ///< in the face up to rounding
+  Index nearest; ///< the corner of the face with the largest weight
+  double squared_distance = std::numeric_limits<double>::infinity();
+};
+
+class Surface_walk
+{
+public:
+  explicit Surface_walk(const Reference& reference) : reference_(reference) {}
+
+  Foot closest(const Vector& p, Index start) const
+  {
+    Foot best = foot_on(p, start);
+    for (bool closer = true; closer;) {
+      closer = false;
+      const Index from = best.face;
+      for (const Index v : reference_.vertices_of_face(from))
+        for (const Index e : reference_.edges_at(v))
+          for (const Index f : reference_.faces_of_edge(e)) {
+            if (f == none || f == from || f == best.face) continue;
+            const Foot foot = foot_on(p, f);
+            if (foot.squared_distance < best.squared_distance) best = foot, closer = true;
+          }
+    }
+    return best;
+  }
+
+  /// Any face at a vertex.
+  Index face_at(Index v) const
+  {
+    const auto faces = reference_.faces_of_edge(*reference_.edges_at(v).begin());
+    return faces[0] != none ? faces[0] : faces[1];
+  }
+
+private:
+  Foot foot_on(const Vector& p, Index f) const
+  {
+    const auto corner = reference_.vertices_of_face(f);
+    const Vector& a = reference_.point(corner[0]);
+    const Vector ab = reference_.point(corner[1]) - a, ac = reference_.point(corner[2]) - a;
+    const auto [v, w] = closest_weights(p, a, ab, ac);
+    Foot foot;
+    foot.face = f;
+    // A vertex is met exactly.
+    foot.point = v == 1 ? reference_.point(corner[1])
+        : w == 1        ? reference_.point(corner[2])
+                        : Vector(a + v * ab + w * ac);
+    const double u = 1 - v - w;
+    foot.nearest = u >= v && u >= w ? corner[0] : v >= w ? corner[1] : corner[2];
+    foot.squared_distance = (p - foot.point).squaredNorm();
+    return foot;
+  }
+
+  const Reference& reference_;
+};
+
+} // namespace surety::internal
+
+#endif // SURETY_INTERNAL_GEOMETRIC_MESH_SURFACE_WALK_H
