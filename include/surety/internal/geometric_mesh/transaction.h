@@ -113,6 +113,7 @@ private:
   {
     if (!(predict(e) <= overshoot * overshoot)) return false;
     const Index p = disc_.removed, q = disc_.apex;
+    overshoot_ = overshoot;
     bound_.overshoot(overshoot);
     bound_.begin_transaction();
     editor_.begin();
@@ -167,8 +168,10 @@ private:
     for (const Index e : edges_) improver_.flip(e);
   }
 
-  double largest_ratio_of_set() const
+  /// Of what maps near the set, to the true tolerance.
+  double largest_ratio_of_set()
   {
+    bound_.overshoot(1);
     double largest = 0;
     for (const Index v : set_)
       mesh_.for_each_outgoing(v, [&](Index h) {
@@ -176,6 +179,7 @@ private:
           largest = std::max(largest, bound_.largest_ratio_on_face(mesh_.face(h)));
         largest = std::max(largest, bound_.largest_ratio_on_edge(mesh_.edge(h)));
       });
+    bound_.overshoot(overshoot_);
     return largest;
   }
 
@@ -199,6 +203,7 @@ private:
   Fan_optimizer optimizer_;
 
   Disc disc_;
+  double overshoot_ = 1;
   std::vector<Index> set_, edges_;
   std::vector<Failure> failed_;
 };
