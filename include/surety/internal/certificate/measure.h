@@ -16,6 +16,7 @@
 // and y lie outside by e m: 14 e m. Second-order terms and the rounding of m itself do not reach
 // 16 e m, or 16 sqrt(3) e m < 28 e m for the vector; we add 32 e m, and nothing where x and y are
 // stored points.
+//
 // An inner item is the exact point x = a + lambda (b - a) + mu (c - a), and y a stored vertex:
 //   x - y = (a - y) + lambda (b - a) + mu (c - a),
 // with three differences. In each coordinate, first order, and with lambda + mu <= 1:
@@ -24,8 +25,9 @@
 // that is 7 e m. The test lambda + mu <= 1 is made in floating point, so the exact sum s may reach
 // 1 + e. If it exceeds 1, the item stands for x' = a + (x - a) / s, a point of the triangle; as x -
 // x' = (s - 1) (x' - a), this is e m more: 8 e m, and 32 e m for the vector is enough again.
-// The norm of a computed vector: 3 e relative (square 1, two sums 2, halved by the
-// root, root 1, rounded up), then a sum and a product: 5 e < 8 e.
+//
+// The norm of a computed vector: 3 e relative (square 1, two sums 2, halved by the root, root 1,
+// rounded up), then a sum and a product: 5 e < 8 e.
 // Underflow: a product errs by at most 2^-1074, and by 2^-1022 where subnormals are flushed; nine
 // of them below a root by less than 2^-508; we add 2^-500, unless x and y are the same stored
 // point. Overflow gives an infinity or a NaN, which no tolerance admits.
