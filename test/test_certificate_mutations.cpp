@@ -76,6 +76,34 @@ TEST_P(Simplification, certificate_holds_with_the_bound_that_it_records)
   EXPECT_LE(sampled_distance(result.input, result.output, seed), answer.bound);
 }
 
+TEST_P(Simplification, normal_deviations_cover_the_faces_at_a_vertex_inside_a_face)
+{
+  // Whatever the cells are: one at such a vertex is in that face.
+  const Simplified result = example(seed);
+  const Certificate_check answer = result.check();
+  ASSERT_TRUE(answer.holds) << answer.reason;
+  const auto normal = [](const Mesh& mesh, Face f) {
+    const auto h = mesh.halfedge(f);
+    return CGAL::normal(
+        mesh.point(mesh.source(h)), mesh.point(mesh.target(h)),
+        mesh.point(mesh.target(mesh.next(h))));
+  };
+  const auto& images = result.certificate.correspondence()->images;
+  int compared = 0;
+  for (const Face t : result.input.faces()) {
+    for (const Vertex v : CGAL::vertices_around_face(result.input.halfedge(t), result.input)) {
+      if (images[v].kind != Kind::face) continue;
+      const Face f(images[v].a);
+      const double angle
+          = CGAL::approximate_angle(normal(result.input, t), normal(result.output, f));
+      EXPECT_LE(angle, answer.normal_deviations[f] + 1e-5); // approximate near 0 and 180
+      ++compared;
+    }
+  }
+  // The plate's vertices are all on edges, and stay there.
+  EXPECT_TRUE(compared > 0 || seed % 6 == 5);
+}
+
 TEST_P(Simplification, certificate_survives_a_file)
 {
   const Simplified result = example(seed);

@@ -16,6 +16,7 @@
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 
+#include <algorithm>
 #include <iosfwd>
 #include <limits>
 #include <optional>
@@ -78,6 +79,15 @@ struct Certificate_check {
   /// For each face of the output, in iteration order, a proven bound of the distance of its points
   /// to the input; empty if nothing is proven.
   std::vector<double> face_bounds;
+  /// For each face of the output, in iteration order, a proven bound of the angle, in degrees,
+  /// between its normal and the normal of any face of the input of which a part is mapped there;
+  /// empty if nothing is proven. Where the record leaves a choice of how to divide a face of the
+  /// input, it is a bound for the division that was found, and others may give less. A face of the
+  /// input of which a part shrinks to an edge or a vertex of the output is compared with the best
+  /// of the faces there. 180 where a face has no area.
+  std::vector<double> normal_deviations;
+  /// The largest of them; infinite if nothing is proven.
+  double largest_normal_deviation = std::numeric_limits<double>::infinity();
 };
 
 /// \brief verifies a certificate against the two meshes, from its record alone.
@@ -141,6 +151,9 @@ Certificate_check check_certificate(
     answer.bound = check.bound() / scale;
     answer.face_bounds = check.face_bounds();
     for (double& bound : answer.face_bounds) bound /= scale;
+    answer.normal_deviations = check.normal_deviations();
+    answer.largest_normal_deviation
+        = *std::max_element(answer.normal_deviations.begin(), answer.normal_deviations.end());
   }
   return answer;
 }

@@ -27,6 +27,7 @@
 #include <surety/internal/certificate/curves.h>
 #include <surety/internal/certificate/degree.h>
 #include <surety/internal/certificate/measure.h>
+#include <surety/internal/certificate/normals.h>
 
 #include <cstdio>
 #include <limits>
@@ -64,6 +65,15 @@ public:
       for (const Index i : cell.items) bound = (std::max)(bound, distances_[i]);
     }
     return bounds;
+  }
+
+  /// For each face of M, a bound in degrees of its angle to the faces of T of its cells.
+  std::vector<double> normal_deviations() const
+  {
+    Normal_deviations deviations(input_, items_);
+    for (Index t = 0; t < input_.number_of_faces(); ++t)
+      deviations.add(t, cells_.data() + first_cell_[t], cells_.data() + first_cell_[t + 1]);
+    return deviations.angles();
   }
 
 private:
@@ -278,6 +288,8 @@ private:
   {
     cells_.reserve(
         input_.number_of_faces() + 2 * (record_.crossings.size() + record_.inner.size()));
+    first_cell_.assign(1, 0);
+    first_cell_.reserve(input_.number_of_faces() + 1);
     Polygon_cutter<Items> cutter(items_);
     std::vector<Index> polygon;
     Index next_inner = 0;
@@ -287,6 +299,7 @@ private:
           = next_inner < record_.inner.size() && record_.inner[next_inner].face == t;
       const Index inner = has_inner ? first_inner_ + next_inner++ : none;
       const Cutting cutting = cutter.cut(polygon, inner, cells_);
+      first_cell_.push_back(cells_.size());
       if (cutting == Cutting::done) continue;
       const auto& v = input_.corners(t);
       return refuse(
@@ -352,6 +365,7 @@ private:
   Index first_inner_ = 0;             ///< item of the first inner item
   std::vector<double> distances_;     ///< of each item
   std::vector<Cell> cells_;
+  std::vector<std::size_t> first_cell_; ///< of each face of T
   double bound_ = std::numeric_limits<double>::infinity();
   std::string reason_;
 };
