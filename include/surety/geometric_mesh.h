@@ -6,83 +6,14 @@
 #define SURETY_GEOMETRIC_MESH_H
 
 #include <surety/certificate.h>
-#include <surety/features.h>
-#include <surety/internal/deviation/accumulated_bound.h>
-#include <surety/internal/deviation/direct_bound.h>
-#include <surety/internal/geometric_mesh/exchange.h>
-#include <surety/internal/geometric_mesh/record.h>
-#include <surety/internal/geometric_mesh/simplifier.h>
-#include <surety/internal/validation.h>
+#include <surety/internal/geometric_mesh/workspace.h>
 #include <surety/parameters.h>
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
-#include <optional>
-#include <type_traits>
 
 namespace surety {
 
 namespace internal {
-
-template <class NamedParameters, class Tag, class Value>
-Value parameter_or(const NamedParameters& np, Tag tag, Value otherwise)
-{
-  return CGAL::parameters::choose_parameter(CGAL::parameters::get_parameter(np, tag), otherwise);
-}
-
-template <class NamedParameters, class Tag>
-constexpr bool is_absent = CGAL::parameters::is_default_parameter<NamedParameters, Tag>::value;
-
-template <class NamedParameters>
-Simplification_controls simplification_controls(const NamedParameters& np, const char* function)
-{
-  Simplification_controls controls;
-  controls.shape_ratio = parameter_or(np, shape_ratio, defaults::shape_ratio);
-  controls.shape_floor = parameter_or(np, shape_floor, defaults::shape_floor);
-  const double angle = parameter_or(np, roughness_angle, defaults::roughness_angle);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  require_in_range(controls.shape_ratio, 1, infinity, function, "shape_ratio");
-  require_in_range(controls.shape_floor, 1, infinity, function, "shape_floor");
-  require_positive(angle, function, "roughness_angle");
-  require_in_range(angle, 0, 180, function, "roughness_angle");
-  controls.roughness_cosine = angle < 180 ? std::cos(angle * radians_per_degree) : -2;
-  controls.allow_self_intersections
-      = parameter_or(np, allow_self_intersections, defaults::allow_self_intersections);
-  controls.single_precision = parameter_or(np, single_precision, false);
-  return controls;
-}
-
-template <class NamedParameters>
-Simplification_plan simplification_plan(const NamedParameters& np, const char* function)
-{
-  Simplification_plan plan;
-  plan.flip_rounds = parameter_or(np, flip_rounds, defaults::flip_rounds);
-  plan.places_freely = parameter_or(np, placement, defaults::placement) == Placement::free;
-  plan.fewest_faces = parameter_or(np, target_faces, defaults::target_faces);
-  const Effort effort_spent = parameter_or(np, effort, defaults::effort);
-  if (effort_spent == Effort::standard) plan.overshoots = {1.4};
-  if (plan.places_freely
-      && parameter_or(np, deviation_bound, defaults::deviation_bound)
-          == Deviation_bound::accumulated)
-    throw Invalid_input(
-        function, "placement", "the accumulated bound has no operation that places vertices freely",
-        "use Placement::on_surface or Deviation_bound::direct");
-  if (effort_spent == Effort::best) plan.overshoots = {1.25, 1.4, 1.6, 1.8, 2, 2};
-  return plan;
-}
-
-/// The visitor as a function; absent when the user gave none.
-template <class NamedParameters>
-std::function<bool(const Progress&)> progress_reporter(const NamedParameters& np)
-{
-  if constexpr (is_absent<NamedParameters, CGAL::internal_np::visitor_t>) {
-    return {};
-  } else {
-    auto visitor = CGAL::parameters::get_parameter(np, CGAL::internal_np::visitor);
-    return [visitor](const Progress& progress) mutable { return visitor.on_progress(progress); };
-  }
-}
 
 /// Writes b(K) to the user's map, or to the property map "f:deviation".
 template <class Mesh, class NamedParameters>
@@ -153,6 +84,23 @@ void write_deviation(
 ///     \cgalParamType{a readable property map from vertices to `bool`}
 ///     \cgalParamDefault{no vertex}
 ///   \cgalParamNEnd
+///   \cgalParamNBegin{face_is_constrained_map}
+///     \cgalParamDescription{faces that stay}
+///     \cgalParamType{a readable property map from faces to `bool`}
+///     \cgalParamDefault{no face}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{vertex_tolerance_map}
+///     \cgalParamDescription{a tolerance at each vertex of the input, where it is less than
+///       `tolerance`; linear over the faces}
+///     \cgalParamType{a readable property map from vertices to `double`, positive, in mesh units}
+///     \cgalParamDefault{`tolerance` everywhere}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{face_tolerance_map}
+///     \cgalParamDescription{a tolerance at each face of the input, where it is less than
+///       `tolerance`; a vertex takes the least of its faces, so that it is kept all over each face}
+///     \cgalParamType{a readable property map from faces to `double`, positive, in mesh units}
+///     \cgalParamDefault{`tolerance` everywhere}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{deviation_bound}
 ///     \cgalParamDescription{`Deviation_bound::direct`, by a map from the input to the mesh, or
 ///       `Deviation_bound::accumulated`, the paper's, which adds up from operation to operation}
@@ -191,9 +139,15 @@ void write_deviation(
 ///     \cgalParamDefault{`Effort::standard`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{target_faces}
-///     \cgalParamDescription{a number of faces at which to stop}
+///     \cgalParamDescription{a number of faces at which to stop. The tolerance then grows in steps
+///       up to the one that is given, so that the certified bound is small for that number}
 ///     \cgalParamType{`std::size_t`}
 ///     \cgalParamDefault{0, as few as the tolerance allows}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{stages}
+///     \cgalParamDescription{number of stages in which the tolerance grows in equal steps}
+///     \cgalParamType{`unsigned int`, at least 1}
+///     \cgalParamDefault{1}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{single_precision}
 ///     \cgalParamDescription{vertices that move go to points with single-precision coordinates}
@@ -225,59 +179,18 @@ Certificate make_geometric_mesh(
     Mesh& mesh, double tolerance, const NamedParameters& np = CGAL::parameters::default_values())
 {
   const char* const function = "make_geometric_mesh";
-  internal::require_valid_mesh(mesh, function, "mesh", np);
   internal::require_positive(tolerance, function, "tolerance");
-  auto controls = internal::simplification_controls(np, function);
+  const auto controls = internal::simplification_controls(np, function);
   const auto plan = internal::simplification_plan(np, function);
-  const Features features = find_features(mesh, np);
+  internal::Workspace<Mesh> work(mesh, tolerance, np, function);
+  const auto [operations, is_complete]
+      = work.simplify(controls, plan, internal::progress_reporter(np));
 
-  const auto points = internal::vertex_points(mesh, np);
-  using Coordinate = std::decay_t<decltype(get(points, *mesh.vertices().begin()).x())>;
-  controls.single_precision = controls.single_precision || std::is_same_v<Coordinate, float>;
-  const double scale = internal::normalising_scale(mesh, points);
-  const internal::Elements<Mesh> elements(mesh, points);
-  auto connectivity = internal::read_connectivity(mesh, elements);
-  auto coordinates = internal::points_in_order(elements, points, scale);
-  const internal::Reference reference
-      = internal::make_reference(elements, coordinates, connectivity);
-  internal::Journal journal;
-  internal::Working_mesh working = internal::make_working_mesh(
-      elements, features, std::move(connectivity), std::move(coordinates), journal);
-
-  std::unique_ptr<internal::Deviation_policy> deviation;
-  internal::Direct_bound* direct = nullptr;
-  if (internal::parameter_or(np, internal::deviation_bound, internal::defaults::deviation_bound)
-      == Deviation_bound::direct) {
-    // Vertices may lie outside T by the tolerance, and by a few times that for a while.
-    const internal::Rounding rounding(reference.largest_coordinate() + 4 * scale * tolerance);
-    auto bound = std::make_unique<internal::Direct_bound>(
-        reference, working, internal::Tolerance(rounding, scale * tolerance), journal);
-    direct = bound.get();
-    deviation = std::move(bound);
-  } else {
-    deviation
-        = std::make_unique<internal::Accumulated_bound>(reference, working, scale * tolerance);
-  }
-
-  const auto [operations, is_complete] = internal::simplify(
-      reference, working, *deviation, direct, controls, plan, journal,
-      internal::progress_reporter(np));
-
-  std::vector<double> bounds = deviation->face_bounds();
-  for (double& bound : bounds) bound /= scale;
-  const std::vector<bool> is_feature = internal::features_in_order(elements, features);
-  const std::vector<internal::Index> face_position = internal::face_positions(elements, mesh);
-  internal::write_connectivity(working, elements, mesh);
-  internal::write_points(working, reference, elements, scale, points);
-  const internal::Compaction compaction = internal::compact(elements, mesh);
+  const std::vector<double> bounds = work.face_bounds();
+  const internal::Compaction compaction = work.write_back(mesh, np);
   internal::write_deviation(bounds, compaction, np, mesh);
-  std::optional<Correspondence> record;
-  if (direct != nullptr)
-    record
-        = internal::Recorder(reference, working, direct->map(), elements.input_position, compaction)
-              .record(is_feature, direct->inner_items(), face_position);
   const double bound = bounds.empty() ? 0 : *std::max_element(bounds.begin(), bounds.end());
-  return Certificate(tolerance, bound, std::move(record), operations, !is_complete);
+  return Certificate(tolerance, bound, work.record(compaction), operations, !is_complete);
 }
 
 } // namespace surety

@@ -59,6 +59,10 @@ struct placement_t {};
 struct effort_t {};
 struct target_faces_t {};
 struct single_precision_t {};
+struct stages_t {};
+struct vertex_tolerance_map_t {};
+struct face_tolerance_map_t {};
+struct face_is_constrained_map_t {};
 struct relative_slack_t {};
 struct maximum_subdivisions_t {};
 struct deviation_map_t {};
@@ -74,6 +78,10 @@ inline constexpr placement_t placement{};
 inline constexpr effort_t effort{};
 inline constexpr target_faces_t target_faces{};
 inline constexpr single_precision_t single_precision{};
+inline constexpr stages_t stages{};
+inline constexpr vertex_tolerance_map_t vertex_tolerance_map{};
+inline constexpr face_tolerance_map_t face_tolerance_map{};
+inline constexpr face_is_constrained_map_t face_is_constrained_map{};
 inline constexpr relative_slack_t relative_slack{};
 inline constexpr maximum_subdivisions_t maximum_subdivisions{};
 inline constexpr deviation_map_t deviation_map{};
@@ -96,6 +104,7 @@ constexpr unsigned flip_rounds = 3;
 constexpr Placement placement = Placement::on_surface;
 constexpr Effort effort = Effort::standard;
 constexpr std::size_t target_faces = 0;
+constexpr unsigned stages = 1;
 constexpr double relative_slack = 0.01;
 } // namespace defaults
 
@@ -137,6 +146,22 @@ public:
   auto effort(Effort how_much) const { return then<internal::effort_t>(how_much); }
   auto target_faces(std::size_t number) const { return then<internal::target_faces_t>(number); }
   auto single_precision(bool single) const { return then<internal::single_precision_t>(single); }
+  auto stages(unsigned number) const { return then<internal::stages_t>(number); }
+  template <class Map>
+  auto vertex_tolerance_map(const Map& map) const
+  {
+    return then<internal::vertex_tolerance_map_t>(map);
+  }
+  template <class Map>
+  auto face_tolerance_map(const Map& map) const
+  {
+    return then<internal::face_tolerance_map_t>(map);
+  }
+  template <class Map>
+  auto face_is_constrained_map(const Map& map) const
+  {
+    return then<internal::face_is_constrained_map_t>(map);
+  }
   auto relative_slack(double slack) const { return then<internal::relative_slack_t>(slack); }
   auto maximum_subdivisions(std::size_t number) const
   {
@@ -274,7 +299,9 @@ inline auto effort(Effort how_much)
 
 /// \brief Number of faces at which a simplification stops, if the tolerance lets it come so far.
 ///
-/// A number of faces (`std::size_t`). Default: 0, as few as the tolerance allows.
+/// A number of faces (`std::size_t`). Default: 0, as few as the tolerance allows. The tolerance
+/// grows in steps towards the one that is given, so that the certified bound is small for that
+/// number.
 inline auto target_faces(std::size_t number)
 {
   return Named_parameters<std::size_t, internal::target_faces_t>(number);
@@ -287,6 +314,45 @@ inline auto target_faces(std::size_t number)
 inline auto single_precision(bool single)
 {
   return Named_parameters<bool, internal::single_precision_t>(single);
+}
+
+/// \brief In how many stages, equal steps, the tolerance grows to what it is (section 2.3 of the
+/// paper).
+///
+/// A number of stages (`unsigned`), at least 1. Default: 1.
+inline auto stages(unsigned number)
+{
+  return Named_parameters<unsigned, internal::stages_t>(number);
+}
+
+/// \brief A tolerance at each vertex of the input, where it is less than the one for the whole
+/// mesh.
+///
+/// A readable property map from vertex descriptors to `double`, in mesh units, positive. Between
+/// the vertices of a face the tolerance is linear. Default: the same tolerance everywhere.
+template <class Map>
+auto vertex_tolerance_map(const Map& map)
+{
+  return Named_parameters<Map, internal::vertex_tolerance_map_t>(map);
+}
+
+/// \brief A tolerance at each face of the input, where it is less than the one for the whole mesh.
+///
+/// A readable property map from face descriptors to `double`, in mesh units, positive. A vertex
+/// takes the least of its faces. Default: the same tolerance everywhere.
+template <class Map>
+auto face_tolerance_map(const Map& map)
+{
+  return Named_parameters<Map, internal::face_tolerance_map_t>(map);
+}
+
+/// \brief Which faces stay as they are.
+///
+/// A readable property map from face descriptors to `bool`. Default: none.
+template <class Map>
+auto face_is_constrained_map(const Map& map)
+{
+  return Named_parameters<Map, internal::face_is_constrained_map_t>(map);
 }
 
 /// \brief Largest gap that a verifier of distances leaves between the truth and what it proves.

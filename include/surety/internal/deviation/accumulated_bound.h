@@ -38,6 +38,7 @@ public:
   Accumulated_bound(const Reference& reference, const Working_mesh& mesh, double tolerance)
     : reference_(reference),
       mesh_(mesh),
+      tolerance_(tolerance),
       limit_(tolerance * (1 - 0x1p-20)),
       bound_(mesh.number_of_real_faces(), 0.0)
   {}
@@ -58,6 +59,8 @@ public:
       if (!mesh_.is_ghost_face(f)) bound_[f] = 0;
     for (Index j = disc.first; j <= disc.last; ++j) bound_[disc.face[j]] = new_[j];
   }
+
+  void set_stage(double share) override { limit_ = share * tolerance_ * (1 - 0x1p-20); }
 
   /// Zero for faces that are gone.
   std::vector<double> face_bounds() override { return bound_; }
@@ -130,7 +133,7 @@ private:
 
   const Reference& reference_;
   const Working_mesh& mesh_;
-  double limit_;
+  double tolerance_, limit_;
   std::vector<double> bound_;
 
   // What check() worked out, kept for commit().

@@ -61,6 +61,7 @@ public:
   Verdict check(const Disc& disc) override;
   void commit(const Disc& disc) override;
   Forecast forecast(const Disc& disc) const override;
+  void set_stage(double share) override { tolerance_.set_stage(share); }
   std::vector<double> face_bounds() override;
 
   const Map& map() const { return map_; }

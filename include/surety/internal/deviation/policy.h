@@ -30,6 +30,9 @@ public:
     return {};
   }
 
+  /// The share of the tolerance that counts until the next call, at first all of it.
+  virtual void set_stage(double share) = 0;
+
   /// b(K), an upper bound of the two-sided distance at face K; see section 2.1 of the paper.
   virtual std::vector<double> face_bounds() = 0;
 };

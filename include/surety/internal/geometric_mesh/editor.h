@@ -23,6 +23,37 @@ struct Simplification_controls {
   bool single_precision; ///< vertices that move go to points whose coordinates are floats
 };
 
+/// An operation that was made: enough to make it again.
+struct Step {
+  Disc::Kind kind;
+  Index halfedge;
+  Vector point; ///< where the apex of a closed fan went
+  Index anchor;
+};
+
+/// Makes an operation that was made before, from the same state.
+inline void replay(const Step& step, Working_mesh& mesh)
+{
+  const Index h = step.halfedge;
+  switch (step.kind) {
+  case Disc::Kind::collapse:
+    mesh.collapse(h);
+    break;
+  case Disc::Kind::flip:
+    mesh.flip(h);
+    break;
+  case Disc::Kind::placement: {
+    const Index q = mesh.target(h);
+    mesh.collapse(h);
+    mesh.move(q, step.point, step.anchor);
+    break;
+  }
+  case Disc::Kind::relocation:
+    mesh.move(mesh.source(h), step.point, step.anchor);
+    break;
+  }
+}
+
 class Editor
 {
 public:
@@ -63,25 +94,10 @@ public:
   void commit(const Disc& disc)
   {
     deviation_.commit(disc);
-    switch (disc.kind) {
-    case Disc::Kind::collapse:
-      mesh_.collapse(disc.halfedge);
-      ++operations_.collapses;
-      break;
-    case Disc::Kind::flip:
-      mesh_.flip(disc.halfedge);
-      ++operations_.flips;
-      break;
-    case Disc::Kind::placement:
-      mesh_.collapse(disc.halfedge);
-      mesh_.move(disc.apex, disc.apex_point, disc.anchor);
-      ++operations_.collapses;
-      break;
-    case Disc::Kind::relocation:
-      mesh_.move(disc.apex, disc.apex_point, disc.anchor);
-      ++operations_.relocations;
-      break;
-    }
+    const Step step{disc.kind, disc.halfedge, disc.apex_point, disc.anchor};
+    replay(step, mesh_);
+    if (log_ != nullptr) log_->push_back(step);
+    count(disc.kind);
     if (guard_) guard_->commit(disc);
     if (journal_.is_recording()) {
       note_touched(disc);
@@ -100,11 +116,15 @@ public:
     return true;
   }
 
+  /// Writes every operation that is not undone to a log from now on.
+  void write_to(std::vector<Step>* log) { log_ = log; }
+
   /// Everything from here on can be undone, until keep() or undo().
   void begin()
   {
     journal_.begin();
     operations_before_ = operations_;
+    steps_before_ = log_ != nullptr ? log_->size() : 0;
     touched_faces_.clear();
     touched_edges_.clear();
   }
@@ -121,6 +141,7 @@ public:
   {
     journal_.undo();
     operations_ = operations_before_;
+    if (log_ != nullptr) log_->resize(steps_before_);
     if (guard_) guard_->refresh(touched_faces_);
   }
   /// The faces and edges of M that the transaction has touched, with repetitions; some are gone.
@@ -128,6 +149,15 @@ public:
   const std::vector<Index>& touched_edges() const { return touched_edges_; }
 
 private:
+  void count(Disc::Kind kind)
+  {
+    if (kind == Disc::Kind::flip)
+      ++operations_.flips;
+    else if (kind == Disc::Kind::relocation)
+      ++operations_.relocations;
+    else
+      ++operations_.collapses;
+  }
   void touch(Index v)
   {
     if (!mesh_.is_ghost_vertex(v)) changed_at_[v] = clock_;
@@ -174,6 +204,8 @@ private:
   Roughness_control roughness_;
   std::optional<Intersection_guard> guard_;
   Operations operations_, operations_before_;
+  std::vector<Step>* log_ = nullptr;
+  std::size_t steps_before_ = 0;
   std::vector<Index> touched_faces_, touched_edges_;
 };
 

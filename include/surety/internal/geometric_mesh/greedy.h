@@ -34,7 +34,14 @@ public:
       refused_(2 * std::size_t(reference.number_of_edges()), false)
   {
     initialise_quadrics();
-    for (Index v = 0; v < reference_.number_of_vertices(); ++v) schedule(v);
+  }
+
+  /// Puts all vertices into the queue, whatever was refused before.
+  void start()
+  {
+    std::fill(refused_.begin(), refused_.end(), false);
+    for (Index v = 0; v < reference_.number_of_vertices(); ++v)
+      if (mesh_.is_live_vertex(v)) schedule(v);
   }
 
   /// Returns false when cancelled; M is valid and certified either way.

@@ -8,16 +8,23 @@
 #include <surety/internal/geometric_mesh/transaction.h>
 
 #include <optional>
-#include <utility>
 
 namespace surety::internal {
 
 struct Simplification_plan {
-  unsigned flip_rounds;
-  bool places_freely;
-  /// Factors of the tolerance that transactions may overshoot to, one pass each.
+  unsigned flip_rounds = 3;
+  bool places_freely = false;
+  /// Factors of the tolerance that transactions may overshoot to, one pass each. Before the last
+  /// stage there are none.
   std::vector<double> overshoots;
-  std::size_t fewest_faces;
+  std::size_t fewest_faces = 0;
+  /// Shares of the tolerance, one stage each, growing up to 1 (the loop of section 2.3 of the
+  /// paper).
+  std::vector<double> stages{1.0};
+  /// Called after each stage; false ends the work.
+  std::function<bool(std::size_t stage)> on_stage;
+  /// Receives the operations, if there is one.
+  std::vector<Step>* log = nullptr;
 };
 
 class Simplifier
@@ -34,6 +41,7 @@ public:
       editor_(reference, mesh, deviation, controls, journal),
       greedy_(reference, editor_, plan.places_freely),
       improver_(editor_, deviation),
+      deviation_(deviation),
       visitor_(std::move(visitor))
   {
     if (direct != nullptr && !plan.overshoots.empty())
@@ -43,19 +51,12 @@ public:
   /// Returns false when the visitor cancelled; M is valid and certified either way.
   bool run()
   {
-    if (!collapse()) return false;
-    for (unsigned round = 0; round < plan_.flip_rounds; ++round) {
-      const std::size_t flips = editor_.operations().flips;
-      if (!sweep(false)) return false;
-      if (editor_.operations().flips == flips) break;
-      if (!collapse()) return false;
-    }
-    if (!transactions_) return true;
-    if (!sweep(true) || !collapse()) return false;
-    for (const double overshoot : plan_.overshoots) {
-      if (!transactions_->run(overshoot, report(), plan_.fewest_faces) || !sweep(true)
-          || !sweep(true) || !collapse())
-        return false;
+    for (std::size_t stage = 0; stage < plan_.stages.size(); ++stage) {
+      deviation_.set_stage(plan_.stages[stage]);
+      const bool is_last = stage + 1 == plan_.stages.size();
+      if (!run_stage() || ((is_last || is_near_goal()) && !run_transactions())) return false;
+      if (plan_.on_stage && !plan_.on_stage(stage)) return true;
+      if (mesh_.number_of_live_faces() <= plan_.fewest_faces) return true;
     }
     return true;
   }
@@ -63,6 +64,35 @@ public:
   const Operations& operations() const { return editor_.operations(); }
 
 private:
+  bool run_stage()
+  {
+    greedy_.start();
+    if (!collapse()) return false;
+    for (unsigned round = 0; round < plan_.flip_rounds && !is_done(); ++round) {
+      const std::size_t flips = editor_.operations().flips;
+      if (!sweep(false)) return false;
+      if (editor_.operations().flips == flips) break;
+      if (!collapse()) return false;
+    }
+    return true;
+  }
+
+  bool run_transactions()
+  {
+    if (!transactions_ || is_done()) return true;
+    if (!sweep(true) || !collapse()) return false;
+    for (const double overshoot : plan_.overshoots) {
+      if (is_done()) return true;
+      if (!transactions_->run(overshoot, report(), plan_.fewest_faces) || !sweep(true)
+          || !sweep(true) || !collapse())
+        return false;
+    }
+    return true;
+  }
+
+  /// Few enough faces for transactions to bring them to the goal.
+  bool is_near_goal() const { return mesh_.number_of_live_faces() < 1.5 * plan_.fewest_faces; }
+  bool is_done() const { return mesh_.number_of_live_faces() <= plan_.fewest_faces; }
   bool collapse() { return greedy_.run(report(), plan_.fewest_faces); }
 
   /// Flips edges, and relocates vertices, wherever that helps.
@@ -95,19 +125,10 @@ private:
   Editor editor_;
   Greedy greedy_;
   Improver improver_;
+  Deviation_policy& deviation_;
   std::optional<Transactions> transactions_;
   std::function<bool(const Progress&)> visitor_;
 };
-
-/// Runs the loop; tells the operations, and whether it came to its end. What it keeps beside M is
-/// gone when it returns.
-template <class... Arguments>
-std::pair<Operations, bool> simplify(Arguments&&... arguments)
-{
-  Simplifier simplifier(std::forward<Arguments>(arguments)...);
-  const bool is_complete = simplifier.run();
-  return {simplifier.operations(), is_complete};
-}
 
 } // namespace surety::internal
 

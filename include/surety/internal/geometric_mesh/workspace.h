@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a simplification works on: T, M, the bound between them and the way back to the user's mesh;
+// and the parameters that say how.
+#ifndef SURETY_INTERNAL_GEOMETRIC_MESH_WORKSPACE_H
+#define SURETY_INTERNAL_GEOMETRIC_MESH_WORKSPACE_H
+
+#include <surety/features.h>
+#include <surety/internal/deviation/accumulated_bound.h>
+#include <surety/internal/deviation/direct_bound.h>
+#include <surety/internal/geometric_mesh/exchange.h>
+#include <surety/internal/geometric_mesh/record.h>
+#include <surety/internal/geometric_mesh/simplifier.h>
+#include <surety/internal/validation.h>
+#include <surety/parameters.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <type_traits>
+
+namespace surety::internal {
+
+template <class NamedParameters, class Tag, class Value>
+Value parameter_or(const NamedParameters& np, Tag tag, Value otherwise)
+{
+  return CGAL::parameters::choose_parameter(CGAL::parameters::get_parameter(np, tag), otherwise);
+}
+
+template <class NamedParameters, class Tag>
+constexpr bool is_absent = CGAL::parameters::is_default_parameter<NamedParameters, Tag>::value;
+
+template <class NamedParameters>
+Simplification_controls simplification_controls(const NamedParameters& np, const char* function)
+{
+  Simplification_controls controls;
+  controls.shape_ratio = parameter_or(np, shape_ratio, defaults::shape_ratio);
+  controls.shape_floor = parameter_or(np, shape_floor, defaults::shape_floor);
+  const double angle = parameter_or(np, roughness_angle, defaults::roughness_angle);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  require_in_range(controls.shape_ratio, 1, infinity, function, "shape_ratio");
+  require_in_range(controls.shape_floor, 1, infinity, function, "shape_floor");
+  require_positive(angle, function, "roughness_angle");
+  require_in_range(angle, 0, 180, function, "roughness_angle");
+  controls.roughness_cosine = angle < 180 ? std::cos(angle * radians_per_degree) : -2;
+  controls.allow_self_intersections
+      = parameter_or(np, allow_self_intersections, defaults::allow_self_intersections);
+  controls.single_precision = parameter_or(np, single_precision, false);
+  return controls;
+}
+
+/// The paper's stages in equal steps, or finer and finer ones towards a number of faces.
+template <class NamedParameters>
+std::vector<double> stage_shares(
+    const NamedParameters& np, const Simplification_plan& plan, const char* function)
+{
+  const unsigned number = parameter_or(np, stages, defaults::stages);
+  require_in_range(number, 1, 1e6, function, "stages");
+  std::vector<double> shares;
+  if (number > 1 || plan.fewest_faces == 0) {
+    for (unsigned k = 1; k <= number; ++k) shares.push_back(double(k) / number);
+    return shares;
+  }
+  constexpr int steps = 48;
+  for (int k = steps; k >= 0; --k) shares.push_back(std::pow(0.8, k));
+  return shares;
+}
+
+template <class NamedParameters>
+Simplification_plan simplification_plan(const NamedParameters& np, const char* function)
+{
+  Simplification_plan plan;
+  plan.flip_rounds = parameter_or(np, flip_rounds, defaults::flip_rounds);
+  plan.places_freely = parameter_or(np, placement, defaults::placement) == Placement::free;
+  plan.fewest_faces = parameter_or(np, target_faces, defaults::target_faces);
+  plan.stages = stage_shares(np, plan, function);
+  const Effort effort_spent = parameter_or(np, effort, defaults::effort);
+  if (effort_spent == Effort::standard) plan.overshoots = {1.4};
+  if (plan.places_freely
+      && parameter_or(np, deviation_bound, defaults::deviation_bound)
+          == Deviation_bound::accumulated)
+    throw Invalid_input(
+        function, "placement", "the accumulated bound has no operation that places vertices freely",
+        "use Placement::on_surface or Deviation_bound::direct");
+  if (effort_spent == Effort::best) plan.overshoots = {1.25, 1.4, 1.6, 1.8, 2, 2};
+  return plan;
+}
+
+/// The visitor as a function; absent when the user gave none.
+template <class NamedParameters>
+std::function<bool(const Progress&)> progress_reporter(const NamedParameters& np)
+{
+  if constexpr (is_absent<NamedParameters, CGAL::internal_np::visitor_t>) {
+    return {};
+  } else {
+    auto visitor = CGAL::parameters::get_parameter(np, CGAL::internal_np::visitor);
+    return [visitor](const Progress& progress) mutable { return visitor.on_progress(progress); };
+  }
+}
+
+/// The tolerance at each vertex by position, where the user's maps make it vary; else empty.
+template <class Mesh, class NamedParameters>
+std::vector<double> varying_tolerance(
+    const Mesh& mesh, const Elements<Mesh>& elements, double tolerance, const NamedParameters& np,
+    const char* function)
+{
+  std::vector<double> result;
+  const auto lower = [&](auto v, double value, const char* name) {
+    require_positive(value, function, name);
+    result[v] = std::min(result[v], value);
+  };
+  if constexpr (!is_absent<NamedParameters, vertex_tolerance_map_t>) {
+    result.resize(mesh.num_vertices(), tolerance);
+    const auto map = CGAL::parameters::get_parameter(np, vertex_tolerance_map);
+    for (const auto v : mesh.vertices()) lower(v, get(map, v), "vertex_tolerance_map");
+  }
+  if constexpr (!is_absent<NamedParameters, face_tolerance_map_t>) {
+    result.resize(mesh.num_vertices(), tolerance);
+    const auto map = CGAL::parameters::get_parameter(np, face_tolerance_map);
+    for (const auto f : mesh.faces())
+      for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+        lower(v, get(map, f), "face_tolerance_map");
+  }
+  if (result.empty()) return result;
+  std::vector<double> in_order;
+  for (const auto v : elements.vertices) in_order.push_back(result[v]);
+  return in_order;
+}
+
+/// Faces that are to stay: their edges are features and their vertices corners, and no operation
+/// can touch them.
+template <class Mesh, class NamedParameters>
+void keep_constrained_faces(const Mesh& mesh, const NamedParameters& np, Features& features)
+{
+  if constexpr (!is_absent<NamedParameters, face_is_constrained_map_t>) {
+    const auto map = CGAL::parameters::get_parameter(np, face_is_constrained_map);
+    for (const auto f : mesh.faces()) {
+      if (!get(map, f)) continue;
+      for (const auto h : mesh.halfedges_around_face(mesh.halfedge(f))) {
+        features.edge[mesh.edge(h)] = true;
+        features.corner[mesh.target(h)] = true;
+      }
+    }
+  }
+}
+
+template <class Mesh>
+class Workspace
+{
+public:
+  template <class NamedParameters>
+  Workspace(const Mesh& mesh, double tolerance, const NamedParameters& np, const char* function)
+    : features_(validated_features(mesh, np, function)),
+      scale_(normalising_scale(mesh, vertex_points(mesh, np))),
+      elements_(mesh, vertex_points(mesh, np)),
+      connectivity_(read_connectivity(mesh, elements_)),
+      reference_(make_reference(
+          elements_, points_in_order(elements_, vertex_points(mesh, np), scale_), connectivity_)),
+      working_(make_working_mesh(
+          elements_, features_, std::move(connectivity_),
+          points_in_order(elements_, vertex_points(mesh, np), scale_), journal_)),
+      is_feature_(features_in_order(elements_, features_)),
+      face_position_(face_positions(elements_, mesh))
+  {
+    using Coordinate
+        = std::decay_t<decltype(get(vertex_points(mesh, np), *mesh.vertices().begin()).x())>;
+    has_float_points_ = std::is_same_v<Coordinate, float>;
+    make_bound(mesh, tolerance, np, function);
+  }
+
+  std::pair<Operations, bool> simplify(
+      Simplification_controls controls, const Simplification_plan& plan,
+      std::function<bool(const Progress&)> visitor)
+  {
+    controls.single_precision = controls.single_precision || has_float_points_;
+    Simplifier simplifier(
+        reference_, working_, *deviation_, direct_, controls, plan, journal_, std::move(visitor));
+    const bool is_complete = simplifier.run();
+    return {simplifier.operations(), is_complete};
+  }
+
+  const Working_mesh& mesh() const { return working_; }
+  const Elements<Mesh>& elements() const { return elements_; }
+  const Reference& reference() const { return reference_; }
+  double scale() const { return scale_; }
+
+  /// b(K) of each face of M by position, in the user's units.
+  std::vector<double> face_bounds()
+  {
+    std::vector<double> bounds = deviation_->face_bounds();
+    for (double& bound : bounds) bound /= scale_;
+    return bounds;
+  }
+
+  /// Gives the mesh that was read the faces and points of M.
+  template <class NamedParameters>
+  Compaction write_back(Mesh& mesh, const NamedParameters& np) const
+  {
+    write_connectivity(working_, elements_, mesh);
+    write_points(working_, reference_, elements_, scale_, vertex_points(mesh, np));
+    return compact(elements_, mesh);
+  }
+
+  /// The map phi, for an output in which the elements of M stand where `compaction` says; absent
+  /// with the accumulated bound.
+  std::optional<Correspondence> record(const Compaction& compaction)
+  {
+    if (direct_ == nullptr) return std::nullopt;
+    return Recorder(reference_, working_, direct_->map(), elements_.input_position, compaction)
+        .record(is_feature_, direct_->inner_items(), face_position_);
+  }
+
+private:
+  template <class NamedParameters>
+  static Features validated_features(
+      const Mesh& mesh, const NamedParameters& np, const char* function)
+  {
+    require_valid_mesh(mesh, function, "mesh", np);
+    Features features = find_features(mesh, np);
+    keep_constrained_faces(mesh, np, features);
+    return features;
+  }
+
+  template <class NamedParameters>
+  void make_bound(
+      const Mesh& mesh, double tolerance, const NamedParameters& np, const char* function)
+  {
+    std::vector<double> varying = varying_tolerance(mesh, elements_, tolerance, np, function);
+    if (parameter_or(np, deviation_bound, defaults::deviation_bound)
+        == Deviation_bound::accumulated) {
+      if (!varying.empty())
+        throw Invalid_input(
+            function, "tolerance maps", "the accumulated bound knows one tolerance only",
+            "use Deviation_bound::direct");
+      deviation_ = std::make_unique<Accumulated_bound>(reference_, working_, scale_ * tolerance);
+      return;
+    }
+    // Vertices may lie outside T by the tolerance, and by a few times that for a while.
+    const Rounding rounding(reference_.largest_coordinate() + 4 * scale_ * tolerance);
+    for (double& value : varying) value *= scale_;
+    auto bound = std::make_unique<Direct_bound>(
+        reference_, working_,
+        varying.empty() ? Tolerance(rounding, scale_ * tolerance)
+                        : Tolerance(rounding, std::move(varying)),
+        journal_);
+    direct_ = bound.get();
+    deviation_ = std::move(bound);
+  }
+
+  Features features_;
+  double scale_;
+  Elements<Mesh> elements_;
+  Working_mesh::Connectivity connectivity_;
+  Reference reference_;
+  Journal journal_;
+  Working_mesh working_;
+  std::vector<bool> is_feature_;
+  std::vector<Index> face_position_;
+  bool has_float_points_ = false;
+  std::unique_ptr<Deviation_policy> deviation_;
+  Direct_bound* direct_ = nullptr;
+};
+
+} // namespace surety::internal
+
+#endif // SURETY_INTERNAL_GEOMETRIC_MESH_WORKSPACE_H
