@@ -33,11 +33,13 @@ struct Simplified {
   }
 };
 
-Simplified simplify(const Mesh& input, double tolerance, double feature_angle = 180)
+Simplified simplify(
+    const Mesh& input, double tolerance, double feature_angle = 180,
+    surety::Placement placement = surety::Placement::on_surface)
 {
   Mesh output = input;
   Certificate certificate = surety::make_geometric_mesh(
-      output, tolerance, surety::parameters::feature_angle(feature_angle));
+      output, tolerance, surety::parameters::feature_angle(feature_angle).placement(placement));
   return {input, std::move(output), std::move(certificate)};
 }
 
@@ -303,6 +305,75 @@ TEST_P(Simplification, every_ridge_counts)
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Simplification, testing::Range(0u, 12u));
+
+/// Simplifications whose vertices are free, so that most of them have inner items.
+class Free_simplification : public testing::TestWithParam<unsigned>
+{
+protected:
+  const unsigned seed = GetParam();
+
+  Simplified example() const
+  {
+    const auto free = surety::Placement::free;
+    switch (seed % 3) {
+    case 0:
+      return simplify(jittered_sphere(3, seed), 0.05, 180, free);
+    case 1:
+      return simplify(jittered(torus(24, 12), 0.01, seed), 0.05, 180, free);
+    default:
+      return simplify(jittered(saddle(14), 0.01, seed), 0.05, 180, free);
+    }
+  }
+};
+
+TEST_P(Free_simplification, certificate_holds_and_every_inner_item_counts)
+{
+  const Simplified sound = example();
+  const Certificate_check answer = sound.check();
+  ASSERT_TRUE(answer.holds) << answer.reason;
+  EXPECT_LE(sampled_distance(sound.input, sound.output, seed), answer.bound);
+  const Correspondence& r = *sound.certificate.correspondence();
+  EXPECT_GT(r.inner.size(), 5u);
+  for (std::size_t i = 0; i < r.inner.size(); ++i) {
+    Correspondence less = r;
+    less.inner.erase(less.inner.begin() + std::ptrdiff_t(i));
+    EXPECT_FALSE(sound.check(less).holds) << "inner item " << i;
+  }
+}
+
+TEST_P(Free_simplification, what_is_accepted_after_damage_to_an_inner_item_is_true)
+{
+  const Simplified sound = example();
+  double least_bound = sound.certificate.tolerance();
+  Random random(seed);
+  int accepted = 0;
+  for (int i = 0; i < 500; ++i) {
+    Correspondence record = *sound.certificate.correspondence();
+    auto& inner = record.inner[random.below(record.inner.size())];
+    switch (random.below(4)) {
+    case 0:
+      inner.vertex = std::uint32_t(random.below(sound.output.number_of_vertices()));
+      break;
+    case 1:
+      inner.face += random.unit() < 0.5 ? 1 : std::uint32_t(-1);
+      break;
+    case 2:
+      std::swap(inner.lambda, inner.mu);
+      break;
+    default:
+      inner.lambda = random.unit();
+      inner.mu = random.unit();
+    }
+    const Certificate_check answer = sound.check(record);
+    accepted += answer.holds;
+    least_bound = std::min(least_bound, answer.bound); // infinite if it does not hold
+  }
+  // Only a place that changed a little may pass, in the half of them where it changed alone.
+  EXPECT_LT(accepted, 250);
+  EXPECT_TRUE(surety::certify_distance(sound.input, sound.output, least_bound * 1.001).holds());
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Free_simplification, testing::Range(0u, 9u));
 
 class Random_shape : public testing::TestWithParam<unsigned>
 {};
