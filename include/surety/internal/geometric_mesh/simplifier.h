@@ -21,6 +21,8 @@ struct Simplification_plan {
   /// Shares of the tolerance, one stage each, growing up to 1 (the loop of section 2.3 of the
   /// paper).
   std::vector<double> stages{1.0};
+  /// Whether the stages are to be found out, so that the goal is met at a small tolerance.
+  bool seeks_goal = false;
   /// Called after each stage; false ends the work.
   std::function<bool(std::size_t stage)> on_stage;
   /// Receives the operations, if there is one.
@@ -51,20 +53,35 @@ public:
   /// Returns false when the visitor cancelled; M is valid and certified either way.
   bool run()
   {
+    if (plan_.seeks_goal) return seek();
     for (std::size_t stage = 0; stage < plan_.stages.size(); ++stage) {
-      deviation_.set_stage(plan_.stages[stage]);
       const bool is_last = stage + 1 == plan_.stages.size();
-      if (!run_stage() || ((is_last || is_near_goal()) && !run_transactions())) return false;
-      if (plan_.on_stage && !plan_.on_stage(stage)) return true;
-      if (mesh_.number_of_live_faces() <= plan_.fewest_faces) return true;
+      if (!run_stage(plan_.stages[stage], is_last)) return false;
+      if ((plan_.on_stage && !plan_.on_stage(stage)) || is_done()) return true;
     }
     return true;
+  }
+
+  /// Lets the tolerance grow until few enough faces are left: fast while there are many too many.
+  bool seek()
+  {
+    for (double share = 0x1p-14;; share *= mesh_.number_of_live_faces() > 4 * goal() ? 2 : 1.15) {
+      const bool is_last = share >= 1;
+      if (!run_stage(std::min(share, 1.0), is_last || is_near_goal())) return false;
+      if (is_last || is_done()) return true;
+    }
   }
 
   const Operations& operations() const { return editor_.operations(); }
 
 private:
-  bool run_stage()
+  bool run_stage(double share, bool with_transactions)
+  {
+    deviation_.set_stage(share);
+    return run_collapses() && (!with_transactions || run_transactions());
+  }
+
+  bool run_collapses()
   {
     greedy_.start();
     if (!collapse()) return false;
@@ -83,17 +100,21 @@ private:
     if (!sweep(true) || !collapse()) return false;
     for (const double overshoot : plan_.overshoots) {
       if (is_done()) return true;
-      if (!transactions_->run(overshoot, report(), plan_.fewest_faces) || !sweep(true)
-          || !sweep(true) || !collapse())
+      if (!transactions_->run(overshoot, report(), goal()) || !sweep(true) || !sweep(true)
+          || !collapse())
         return false;
     }
     return true;
   }
 
   /// Few enough faces for transactions to bring them to the goal.
-  bool is_near_goal() const { return mesh_.number_of_live_faces() < 1.5 * plan_.fewest_faces; }
-  bool is_done() const { return mesh_.number_of_live_faces() <= plan_.fewest_faces; }
-  bool collapse() { return greedy_.run(report(), plan_.fewest_faces); }
+  bool is_near_goal() const
+  {
+    return static_cast<double>(mesh_.number_of_live_faces()) < 1.5 * static_cast<double>(goal());
+  }
+  bool is_done() const { return mesh_.number_of_live_faces() <= goal(); }
+  std::size_t goal() const { return plan_.fewest_faces; }
+  bool collapse() { return greedy_.run(report(), goal()); }
 
   /// Flips edges, and relocates vertices, wherever that helps.
   bool sweep(bool relocates)

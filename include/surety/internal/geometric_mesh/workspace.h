@@ -50,20 +50,14 @@ Simplification_controls simplification_controls(const NamedParameters& np, const
   return controls;
 }
 
-/// The paper's stages in equal steps, or finer and finer ones towards a number of faces.
+/// The paper's stages, in equal steps.
 template <class NamedParameters>
-std::vector<double> stage_shares(
-    const NamedParameters& np, const Simplification_plan& plan, const char* function)
+std::vector<double> stage_shares(const NamedParameters& np, const char* function)
 {
   const unsigned number = parameter_or(np, stages, defaults::stages);
   require_in_range(number, 1, 1e6, function, "stages");
   std::vector<double> shares;
-  if (number > 1 || plan.fewest_faces == 0) {
-    for (unsigned k = 1; k <= number; ++k) shares.push_back(double(k) / number);
-    return shares;
-  }
-  constexpr int steps = 48;
-  for (int k = steps; k >= 0; --k) shares.push_back(std::pow(0.8, k));
+  for (unsigned k = 1; k <= number; ++k) shares.push_back(double(k) / number);
   return shares;
 }
 
@@ -74,7 +68,8 @@ Simplification_plan simplification_plan(const NamedParameters& np, const char* f
   plan.flip_rounds = parameter_or(np, flip_rounds, defaults::flip_rounds);
   plan.places_freely = parameter_or(np, placement, defaults::placement) == Placement::free;
   plan.fewest_faces = parameter_or(np, target_faces, defaults::target_faces);
-  plan.stages = stage_shares(np, plan, function);
+  plan.stages = stage_shares(np, function);
+  plan.seeks_goal = plan.fewest_faces > 0 && plan.stages.size() == 1;
   const Effort effort_spent = parameter_or(np, effort, defaults::effort);
   if (effort_spent == Effort::standard) plan.overshoots = {1.4};
   if (plan.places_freely
