@@ -58,6 +58,13 @@ public:
       blocker_(reference.number_of_vertices(), none)
   {}
 
+  /// Coordinates of M's vertices that the rounding errors are derived for: outside T by the
+  /// tolerance, and by a few times that for a while, but never far beyond the size of T.
+  static double largest_coordinate(const Reference& reference, double tolerance)
+  {
+    return reference.largest_coordinate() + 4 * std::min(tolerance, reference.largest_coordinate());
+  }
+
   Verdict check(const Disc& disc) override;
   void commit(const Disc& disc) override;
   Forecast forecast(const Disc& disc) const override;
@@ -70,7 +77,9 @@ public:
   /// must come to be within the tolerance, or be undone, before a result is made of it.
   void overshoot(double factor) { tolerance_.overshoot(factor); }
 
-  /// The largest ratio of a squared distance and its limit among what maps to a face or an edge.
+  /// The largest ratio of a squared distance and its limit among what maps to a vertex, an edge or a
+  /// face.
+  double largest_ratio_at_vertex(Index m_vertex) const;
   double largest_ratio_on_face(Index m_face) const;
   double largest_ratio_on_edge(Index m_edge) const;
   /// The same for the inner items of the T triangles at the edges routed since the journal began.
@@ -101,20 +110,16 @@ private:
     Index low, count;
     double lambda;
   };
-  /// A run of consecutive fan faces.
-  struct Side {
-    Index low, count;
-  };
+  using Side = Disc::Side;
 
   // Step 1: the T vertices on the disc.
   bool is_blocked() const;
-  bool keeps_pin_in_tolerance() const;
+  bool apex_is_in_range() const;
   bool move_vertices();
   bool move_vertices_to_ridges();
   bool move_to_faces(Index v, Side side);
   bool move_to_ridge(Index v, Index spoke);
   double nearest_face(const Disc& disc, const Vector& p, Side side, Index& face) const;
-  Side side_of_place(const Disc& disc, Index place) const;
   Side faces_at_spoke(Index spoke) const;
 
   // Step 2: the T edges that meet the disc, and their new crossings.

@@ -53,24 +53,11 @@ inline Verdict Direct_bound::check(const Disc& disc)
 {
   forget_disc();
   disc_ = &disc;
-  if (is_blocked() || !keeps_pin_in_tolerance() || !move_vertices()) return Verdict::deviation;
+  if (is_blocked() || !apex_is_in_range() || !move_vertices()) return Verdict::deviation;
   gather_edges();
   const Verdict verdict = route_edges();
   if (verdict != Verdict::accept) return verdict;
   return extends_over_faces() ? Verdict::accept : Verdict::correspondence;
-}
-
-/// The new faces on that side of the ridge on which an old face at a place of the ring lies.
-inline Direct_bound::Side Direct_bound::side_of_place(const Disc& disc, Index place) const
-{
-  const auto [left, right] = disc.ridge;
-  if (disc.is_closed()) {
-    if (left == none) return {0, disc.size()};
-    const bool between = left <= place && place < right;
-    return between ? Side{left, right - left} : Side{right, disc.size() - (right - left)};
-  }
-  if (left == none) return {disc.first, disc.last + 1 - disc.first};
-  return place < left ? Side{disc.first, left - disc.first} : Side{left, disc.last + 1 - left};
 }
 
 inline Direct_bound::Side Direct_bound::faces_at_spoke(Index spoke) const
@@ -107,13 +94,17 @@ inline bool Direct_bound::is_blocked() const
   if (i == none) return false;
   Index face = none;
   return !(
-      nearest_face(*disc_, reference_.point(v), side_of_place(*disc_, disc_->old_place[i]), face)
+      nearest_face(*disc_, reference_.point(v), disc_->side_of_place(disc_->old_place[i]), face)
       <= tolerance_.squared_limit(v));
 }
 
-inline bool Direct_bound::keeps_pin_in_tolerance() const
+/// Whether a placed apex lies where rounding is accounted for, and near enough to its pin.
+inline bool Direct_bound::apex_is_in_range() const
 {
-  if (!disc_->is_closed() || !disc_->keeps_pin) return true;
+  if (!disc_->is_closed()) return true;
+  const double farthest = largest_coordinate(reference_, tolerance_.largest());
+  if (!(disc_->apex_point.cwiseAbs().maxCoeff() <= farthest)) return false;
+  if (!disc_->keeps_pin) return true;
   const Index v = map_.pin(disc_->apex);
   return (reference_.point(v) - disc_->apex_point).squaredNorm() <= tolerance_.squared_limit(v);
 }
@@ -166,13 +157,13 @@ inline bool Direct_bound::move_vertices()
   bool admissible = move_vertices_to_ridges();
   const auto release = [&](Index m_vertex) {
     const Index v = map_.pin(m_vertex);
-    if (admissible && v != none) admissible = move_to_faces(v, side_of_place(disc, 0));
+    if (admissible && v != none) admissible = move_to_faces(v, disc.side_of_place(0));
   };
   if (disc.removed != none && disc.ridge[0] == none) release(disc.removed);
   if (disc.is_closed() && !disc.keeps_pin) release(disc.apex);
   for (Index i = 0; admissible && i < disc.old_face.size(); ++i) {
     if (mesh_.is_ghost_face(disc.old_face[i])) continue;
-    const Side side = side_of_place(disc, disc.old_place[i]);
+    const Side side = disc.side_of_place(disc.old_place[i]);
     map_.for_each_vertex_on_face(
         disc.old_face[i], [&](Index v) { admissible = admissible && move_to_faces(v, side); });
   }
@@ -543,7 +534,7 @@ inline Deviation_policy::Forecast Direct_bound::forecast(const Disc& disc) const
   for (Index i = 0; i < disc.old_face.size(); ++i) {
     const Index f = disc.old_face[i];
     if (mesh_.is_ghost_face(f)) continue;
-    const Side side = side_of_place(disc, disc.old_place[i]);
+    const Side side = disc.side_of_place(disc.old_place[i]);
     const auto corner = mesh_.vertices_of(f);
     const Vector& a = mesh_.point(corner[0]);
     const Vector ab = mesh_.point(corner[1]) - a, ac = mesh_.point(corner[2]) - a;
@@ -562,6 +553,13 @@ inline Deviation_policy::Forecast Direct_bound::forecast(const Disc& disc) const
       result.after = std::max(result.after, nearest_face(disc, p, all, face));
     });
   return result;
+}
+
+inline double Direct_bound::largest_ratio_at_vertex(Index m_vertex) const
+{
+  const Index v = map_.pin(m_vertex);
+  if (v == none) return 0;
+  return (reference_.point(v) - mesh_.point(m_vertex)).squaredNorm() / tolerance_.squared_limit(v);
 }
 
 inline double Direct_bound::largest_ratio_on_face(Index m_face) const

@@ -125,6 +125,7 @@ public:
     journal_.begin();
     operations_before_ = operations_;
     steps_before_ = log_ != nullptr ? log_->size() : 0;
+    touched_vertices_.clear();
     touched_faces_.clear();
     touched_edges_.clear();
   }
@@ -144,7 +145,9 @@ public:
     if (log_ != nullptr) log_->resize(steps_before_);
     if (guard_) guard_->refresh(touched_faces_);
   }
-  /// The faces and edges of M that the transaction has touched, with repetitions; some are gone.
+  /// The vertices that the transaction has moved, and the faces and edges that it has touched, with
+  /// repetitions; some are gone.
+  const std::vector<Index>& touched_vertices() const { return touched_vertices_; }
   const std::vector<Index>& touched_faces() const { return touched_faces_; }
   const std::vector<Index>& touched_edges() const { return touched_edges_; }
 
@@ -189,6 +192,7 @@ private:
 
   void note_touched(const Disc& disc)
   {
+    if (disc.is_closed()) touched_vertices_.push_back(disc.apex);
     touched_faces_.insert(touched_faces_.end(), disc.old_face.begin(), disc.old_face.end());
     touched_edges_.insert(touched_edges_.end(), disc.old_spoke.begin(), disc.old_spoke.end());
     touched_edges_.insert(touched_edges_.end(), disc.link.begin(), disc.link.end());
@@ -206,7 +210,7 @@ private:
   Operations operations_, operations_before_;
   std::vector<Step>* log_ = nullptr;
   std::size_t steps_before_ = 0;
-  std::vector<Index> touched_faces_, touched_edges_;
+  std::vector<Index> touched_vertices_, touched_faces_, touched_edges_;
 };
 
 } // namespace surety::internal

@@ -37,15 +37,29 @@ public:
     disc_ = &disc;
     samples_.clear();
     const Map& map = bound_.map();
-    for (const Index m_vertex : {disc.apex, disc.removed})
-      if (m_vertex != none && map.pin(m_vertex) != none) add_vertex(map.pin(m_vertex), 0);
+    if (disc.keeps_pin)
+      add_vertex(map.pin(disc.apex), Kind::pin, 0);
+    else if (map.pin(disc.apex) != none)
+      add_vertex(map.pin(disc.apex), Kind::face, 0);
+    for (int k = 0; k < 2 && disc.ridge[k] != none; ++k)
+      for (const Index old : disc.old_ridge[k]) {
+        if (old == none) continue;
+        map.for_each_vertex_on_edge(
+            old, [&](Index v) { add_vertex(v, Kind::spoke, disc.ridge[k]); });
+        if (disc.removed != none && old == mesh_.edge(disc.halfedge))
+          add_vertex(map.pin(disc.removed), Kind::spoke, disc.ridge[k]);
+      }
+    if (disc.removed != none && disc.ridge[0] == none && map.pin(disc.removed) != none)
+      add_vertex(map.pin(disc.removed), Kind::face, 0);
     for (Index i = 0; i < disc.old_face.size(); ++i)
       if (!mesh_.is_ghost_face(disc.old_face[i]))
         map.for_each_vertex_on_face(
-            disc.old_face[i], [&](Index v) { add_vertex(v, disc.old_place[i]); });
+            disc.old_face[i], [&](Index v) { add_vertex(v, Kind::face, disc.old_place[i]); });
     for (Index i = 0; i < disc.old_spoke.size(); ++i)
-      map.for_each_node_on_m(disc.old_spoke[i], [&](Index n) { add_node(n, i); });
-    for (Sample& sample : samples_) sample.face = nearest_face(sample.point, disc.apex_point);
+      map.for_each_node_on_m(
+          disc.old_spoke[i], [&](Index n) { add_node(n, disc.old_spoke_place[i]); });
+    for (Sample& sample : samples_)
+      if (sample.kind == Kind::face) sample.face = nearest_face(sample, disc.apex_point);
     start_face_ = walk_.face_at(disc.anchor);
   }
 
@@ -92,38 +106,49 @@ private:
   static constexpr double smallest_factor = 0.02, apex_share = 0.05, regularisation = 1e-4;
   static constexpr int most_evaluations = 24;
 
+  /// What a sample maps to: a face on its side of the ridge, a ridge spoke, or the apex.
+  enum class Kind { face, spoke, pin };
+
   struct Sample {
     Vector point;
     double inverse_limit; ///< 1 / squared tolerance
-    Index face;           ///< of the fan, where its closest point was last
+    Kind kind;
+    Disc::Side side;
+    Index face; ///< of the fan, where its closest point was last; or the spoke
     Vector residual;
     double apex_weight, ratio;
   };
 
-  void add(const Vector& point, double squared_limit)
+  void add(const Vector& point, double squared_limit, Kind kind, Index place)
   {
-    samples_.push_back({point, 1 / squared_limit, 0, Vector::Zero(), 0, 0});
+    samples_.push_back(
+        {point, 1 / squared_limit, kind, disc_->side_of_place(place), place, Vector::Zero(), 0, 0});
   }
-  void add_vertex(Index v, Index) { add(reference_.point(v), bound_.tolerance().squared_limit(v)); }
-  void add_node(Index n, Index)
+  void add_vertex(Index v, Kind kind, Index place)
+  {
+    add(reference_.point(v), bound_.tolerance().squared_limit(v), kind, place);
+  }
+  void add_node(Index n, Index place)
   {
     const Node& node = bound_.map().node(n);
     const auto [s, t] = reference_.vertices_of_edge(node.t_edge);
     const Vector& a = reference_.point(s);
     add(a + node.lambda * (reference_.point(t) - a),
-        bound_.tolerance().squared_limit(s, t, node.lambda));
+        bound_.tolerance().squared_limit(s, t, node.lambda), Kind::face, place);
   }
 
-  Index nearest_face(const Vector& p, const Vector& w) const
+  Index nearest_face(const Sample& sample, const Vector& w) const
   {
     double least = std::numeric_limits<double>::infinity();
-    Index nearest = 0;
-    Vector ab = mesh_.point(disc_->ring[0]) - w;
-    for (Index i = 0; i < disc_->size(); ++i) {
-      const Vector ac = mesh_.point(disc_->ring[disc_->after(i)]) - w;
-      const double squared = squared_distance_to_triangle(p, w, ab, ac);
+    Index nearest = sample.side.low, i = sample.side.low;
+    Vector ab = mesh_.point(disc_->ring[i]) - w;
+    for (Index left = sample.side.count; left > 0; --left) {
+      const Index next = disc_->after(i);
+      const Vector ac = mesh_.point(disc_->ring[next]) - w;
+      const double squared = squared_distance_to_triangle(sample.point, w, ab, ac);
       if (squared < least) least = squared, nearest = i;
       ab = ac;
+      i = next;
     }
     return nearest;
   }
@@ -155,6 +180,10 @@ private:
   /// Follows the closest point from face to face while it lies on a spoke.
   void measure(Sample& sample, const Vector& w) const
   {
+    if (sample.kind != Kind::face) {
+      measure_on_ridge(sample, w);
+      return;
+    }
     measure_on(sample, w, sample.face);
     for (int turn = 0; turn < 2; ++turn)
       for (Index steps = disc_->size(); steps > 0; --steps) {
@@ -163,7 +192,9 @@ private:
         Index next = none;
         if (turn == 0 && at_after == 0) next = disc_->before(sample.face);
         if (turn == 1 && at_before == 0) next = disc_->after(sample.face);
-        if (next == none) break;
+        if (next == none
+            || (next + disc_->size() - sample.side.low) % disc_->size() >= sample.side.count)
+          break;
         Sample other = sample;
         const Triangle_weights weights = last_weights_;
         measure_on(other, w, next);
@@ -173,6 +204,19 @@ private:
         }
         sample = other;
       }
+  }
+  void measure_on_ridge(Sample& sample, const Vector& w) const
+  {
+    double mu = 0;
+    if (sample.kind == Kind::spoke) {
+      const Vector& along = along_[sample.face];
+      mu = std::clamp((sample.point - w).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      sample.residual = sample.point - w - mu * along;
+    } else {
+      sample.residual = sample.point - w;
+    }
+    sample.apex_weight = 1 - mu;
+    sample.ratio = sample.residual.squaredNorm() * sample.inverse_limit;
   }
   void measure_on(Sample& sample, const Vector& w, Index face) const
   {

@@ -4,6 +4,7 @@
 #ifndef SURETY_INTERNAL_GEOMETRIC_MESH_GREEDY_H
 #define SURETY_INTERNAL_GEOMETRIC_MESH_GREEDY_H
 
+#include <surety/internal/deviation/direct_bound.h>
 #include <surety/internal/geometric_mesh/editor.h>
 #include <surety/internal/geometric_mesh/quadric.h>
 #include <surety/internal/geometric_mesh/surface_walk.h>
@@ -21,13 +22,14 @@ using Report_progress = std::function<bool(const char* stage, double fraction)>;
 class Greedy
 {
 public:
-  /// With free placement the vertex that two interior ones become goes where its quadric is least.
-  Greedy(const Reference& reference, Editor& editor, bool places_freely)
+  /// Given the bound, vertices are placed freely: the vertex that two become goes where its quadric
+  /// is least.
+  Greedy(const Reference& reference, Editor& editor, const Direct_bound* free_bound)
     : reference_(reference),
       editor_(editor),
       mesh_(editor.mesh()),
       walk_(reference),
-      places_freely_(places_freely),
+      bound_(free_bound),
       queue_(reference.number_of_vertices()),
       quadric_(reference.number_of_vertices()),
       best_(reference.number_of_vertices(), none),
@@ -70,6 +72,8 @@ public:
     queue_.remove(p);
   }
 
+  Vector proposal(const Disc& disc) const;
+
   /// Where the vertex that P and Q become is best according to their quadrics.
   Vector best_place(Index p, Index q) const
   {
@@ -81,11 +85,14 @@ private:
   const Vector& origin() const { return reference_.point(0); }
   void initialise_quadrics();
   void schedule(Index p);
-  double cost(Index p, Index q) const;
-  bool can_be_placed(Index p, Index q) const
+  double cost(Index h) const;
+  /// Two interior vertices, or two successive ones on a ridge or border.
+  bool can_be_placed(Index h) const
   {
-    return places_freely_ && !mesh_.is_on_feature(p) && !mesh_.is_on_feature(q)
-        && !mesh_.is_fixed(q);
+    const Index p = mesh_.source(h), q = mesh_.target(h);
+    if (bound_ == nullptr || mesh_.is_fixed(p) || mesh_.is_fixed(q)) return false;
+    const bool on_features = mesh_.is_on_feature(p) || mesh_.is_on_feature(q);
+    return on_features ? mesh_.is_feature(mesh_.edge(h)) : true;
   }
   void try_collapse(Index p);
   bool collapse_with_placement(Index h);
@@ -94,7 +101,7 @@ private:
   Editor& editor_;
   const Working_mesh& mesh_;
   Surface_walk walk_;
-  bool places_freely_;
+  const Direct_bound* bound_; ///< with free placement
 
   Vertex_queue queue_;
   std::vector<Quadric> quadric_; ///< relative to the first point
@@ -129,11 +136,13 @@ inline void Greedy::initialise_quadrics()
 /// The quadric error of what p and q stand for where they are to merge, by the length of the edge:
 /// of two collapses that err alike the longer one turns the surface less. On flat ground, short
 /// edges first.
-inline double Greedy::cost(Index p, Index q) const
+inline double Greedy::cost(Index h) const
 {
   constexpr double flat_ground = 1e-4;
+  const Index p = mesh_.source(h), q = mesh_.target(h);
   const double length = (mesh_.point(p) - mesh_.point(q)).norm();
-  const Vector x = (can_be_placed(p, q) ? best_place(p, q) : mesh_.point(q)) - origin();
+  const Vector x = (can_be_placed(h) && !mesh_.is_on_feature(p) ? best_place(p, q) : mesh_.point(q))
+      - origin();
   return (quadric_[p](x) + quadric_[q](x)) / length + flat_ground * length;
 }
 
@@ -146,7 +155,7 @@ inline void Greedy::schedule(Index p)
   mesh_.for_each_outgoing(p, [&](Index h) {
     const Index q = mesh_.target(h);
     if (mesh_.is_ghost_vertex(q) || refused_[h]) return;
-    const double c = cost(p, q);
+    const double c = cost(h);
     if (best == none || c < least || (c == least && h < best)) best = h, least = c;
   });
   best_[p] = best;
@@ -158,12 +167,36 @@ inline void Greedy::schedule(Index p)
 
 inline bool Greedy::collapse_with_placement(Index h)
 {
-  const Index p = mesh_.source(h), q = mesh_.target(h);
-  if (!can_be_placed(p, q)) return false;
+  if (!can_be_placed(h)) return false;
   make_placement_disc(mesh_, h, disc_);
-  disc_.apex_point = best_place(p, q);
-  disc_.anchor = walk_.closest(disc_.apex_point, walk_.face_at(mesh_.anchor(q))).nearest;
-  return editor_.try_to(disc_);
+  const bool is_on_ridge = disc_.keeps_pin;
+  const Vector place = proposal(disc_);
+  for (const double share : {1.0, 0.5, 0.25}) {
+    const Vector& still = mesh_.point(disc_.apex);
+    disc_.apex_point = is_on_ridge ? Vector(still + share * (place - still)) : place;
+    disc_.anchor = walk_.closest(disc_.apex_point, walk_.face_at(mesh_.anchor(disc_.apex))).nearest;
+    if (editor_.try_to(disc_)) return true;
+    if (!is_on_ridge) return false;
+  }
+  return false;
+}
+
+/// Where the apex of a placement should go. On a ridge it stays near the vertex of T that it stands
+/// for, and does not slide along the ridge.
+inline Vector Greedy::proposal(const Disc& disc) const
+{
+  constexpr double clamp = 0.95;
+  const Vector best = best_place(disc.removed, disc.apex);
+  if (!disc.keeps_pin) return best;
+  const Index pin = bound_->map().pin(disc.apex);
+  const Vector& x = reference_.point(pin);
+  const Vector along
+      = unit(mesh_.point(disc.ring[disc.ridge[1]]) - mesh_.point(disc.ring[disc.ridge[0]]));
+  Vector offset = best - x;
+  offset -= offset.dot(along) * along;
+  const double limit = clamp * std::sqrt(std::max(0.0, bound_->tolerance().squared_limit(pin)));
+  if (offset.norm() > limit) offset *= limit / offset.norm();
+  return x + offset;
 }
 
 inline void Greedy::try_collapse(Index p)

@@ -13,8 +13,12 @@ namespace surety::internal {
 class Improver
 {
 public:
-  Improver(Editor& editor, Deviation_policy& deviation)
-    : editor_(editor), mesh_(editor.mesh()), deviation_(deviation)
+  Improver(Editor& editor, Deviation_policy& deviation, bool flips, bool moves_ridges)
+    : editor_(editor),
+      mesh_(editor.mesh()),
+      deviation_(deviation),
+      flips_(flips),
+      moves_ridges_(moves_ridges)
   {}
 
   /// The disc of the last operation that was made.
@@ -24,7 +28,8 @@ public:
   /// taking M away from T.
   bool flip(Index e)
   {
-    if (!mesh_.is_live_edge(e) || mesh_.is_border(e) || mesh_.is_feature(e)) return false;
+    if (!flips_ || !mesh_.is_live_edge(e) || mesh_.is_border(e) || mesh_.is_feature(e))
+      return false;
     make_flip_disc(mesh_, mesh_.halfedge(e), disc_);
     return flip_improves() && editor_.try_to(disc_);
   }
@@ -32,7 +37,8 @@ public:
   /// Moves a vertex if that lowers the objective by at least a share of it.
   bool relocate(Index v, Fan_optimizer& optimizer, double least_gain)
   {
-    if (!mesh_.is_live_vertex(v) || mesh_.is_fixed(v) || mesh_.is_on_feature(v)) return false;
+    if (!mesh_.is_live_vertex(v) || mesh_.is_fixed(v)) return false;
+    if (mesh_.is_on_feature(v) && !moves_ridges_) return false;
     make_relocation_disc(mesh_, v, disc_);
     optimizer.look_at(disc_);
     if (!optimizer.has_samples()) return false;
@@ -58,6 +64,7 @@ private:
   Editor& editor_;
   const Working_mesh& mesh_;
   Deviation_policy& deviation_;
+  bool flips_, moves_ridges_;
   Disc disc_;
 };
 

@@ -41,8 +41,8 @@ public:
     : mesh_(mesh),
       plan_(plan),
       editor_(reference, mesh, deviation, controls, journal),
-      greedy_(reference, editor_, plan.places_freely),
-      improver_(editor_, deviation),
+      greedy_(reference, editor_, plan.places_freely ? direct : nullptr),
+      improver_(editor_, deviation, plan.flip_rounds > 0, plan.places_freely),
       deviation_(deviation),
       visitor_(std::move(visitor))
   {

@@ -29,6 +29,7 @@ public:
       bound_(bound),
       greedy_(greedy),
       improver_(improver),
+      on_surface_(on_surface),
       optimizer_(reference, mesh_, bound, on_surface),
       failed_(reference.number_of_edges())
   {}
@@ -77,8 +78,9 @@ private:
   {
     if (!mesh_.is_live_edge(e)) return false;
     const Index p = mesh_.source(mesh_.halfedge(e)), q = mesh_.target(mesh_.halfedge(e));
-    return !mesh_.is_on_feature(p) && !mesh_.is_on_feature(q) && !mesh_.is_fixed(p)
-        && !mesh_.is_fixed(q);
+    if (mesh_.is_fixed(p) || mesh_.is_fixed(q)) return false;
+    const bool on_features = mesh_.is_on_feature(p) || mesh_.is_on_feature(q);
+    return !on_features || (mesh_.is_feature(e) && !on_surface_);
   }
 
   /// An edge that failed need not be tried again while nothing near it has changed.
@@ -104,9 +106,9 @@ private:
   {
     const Index h = mesh_.halfedge(e);
     make_placement_disc(mesh_, h, disc_);
+    if (mesh_.is_feature(e) && !disc_.keeps_pin) return std::numeric_limits<double>::infinity();
     optimizer_.look_at(disc_);
-    return optimizer_.optimize(
-        disc_, greedy_.best_place(mesh_.source(h), mesh_.target(h)), Objective::largest);
+    return optimizer_.optimize(disc_, greedy_.proposal(disc_), Objective::largest);
   }
 
   bool collapse(Index e, double overshoot)
@@ -173,12 +175,14 @@ private:
   {
     bound_.overshoot(1);
     double largest = 0;
-    for (const Index v : set_)
+    for (const Index v : set_) {
+      largest = std::max(largest, bound_.largest_ratio_at_vertex(v));
       mesh_.for_each_outgoing(v, [&](Index h) {
         if (!mesh_.is_ghost_face(mesh_.face(h)))
           largest = std::max(largest, bound_.largest_ratio_on_face(mesh_.face(h)));
         largest = std::max(largest, bound_.largest_ratio_on_edge(mesh_.edge(h)));
       });
+    }
     bound_.overshoot(overshoot_);
     return largest;
   }
@@ -187,6 +191,8 @@ private:
   bool is_within_tolerance()
   {
     bound_.overshoot(1);
+    for (const Index v : editor_.touched_vertices())
+      if (mesh_.is_live_vertex(v) && bound_.largest_ratio_at_vertex(v) > 1) return false;
     for (const Index f : editor_.touched_faces())
       if (!mesh_.is_ghost_face(f) && mesh_.is_live_face(f) && bound_.largest_ratio_on_face(f) > 1)
         return false;
@@ -200,6 +206,7 @@ private:
   Direct_bound& bound_;
   Greedy& greedy_;
   Improver& improver_;
+  bool on_surface_;
   Fan_optimizer optimizer_;
 
   Disc disc_;

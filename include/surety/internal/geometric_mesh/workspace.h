@@ -231,8 +231,7 @@ private:
       deviation_ = std::make_unique<Accumulated_bound>(reference_, working_, scale_ * tolerance);
       return;
     }
-    // Vertices may lie outside T by the tolerance, and by a few times that for a while.
-    const Rounding rounding(reference_.largest_coordinate() + 4 * scale_ * tolerance);
+    const Rounding rounding(Direct_bound::largest_coordinate(reference_, scale_ * tolerance));
     for (double& value : varying) value *= scale_;
     auto bound = std::make_unique<Direct_bound>(
         reference_, working_,

@@ -20,6 +20,11 @@ namespace surety::internal {
 /// fan, where r_0 is the apex; for all i, modulo k, in a closed one. The new spoke s_i = (apex,
 /// r_i) parts F_{i-1} from F_i.
 struct Disc {
+  /// A run of consecutive new faces, modulo k where the fan is closed.
+  struct Side {
+    Index low, count;
+  };
+
   enum class Kind { collapse, flip, placement, relocation };
 
   Kind kind = Kind::collapse;
@@ -29,13 +34,14 @@ struct Disc {
   Index anchor = none;  ///< a vertex of T near that point
   Index removed = none; ///< P, or none
 
-  std::vector<Index> ring;      ///< r_0, r_1, ..., r_{k-1}, counter-clockwise
-  std::vector<Index> link;      ///< edge (r_i, r_{i+1}) of the ring
-  std::vector<Index> face;      ///< face[i]: index that F_i takes
-  std::vector<Index> spoke;     ///< spoke[i]: index that s_i takes
-  std::vector<Index> old_face;  ///< faces of the disc before
-  std::vector<Index> old_place; ///< for each of them, the place in the ring that it touches
-  std::vector<Index> old_spoke; ///< edges inside the disc before
+  std::vector<Index> ring;            ///< r_0, r_1, ..., r_{k-1}, counter-clockwise
+  std::vector<Index> link;            ///< edge (r_i, r_{i+1}) of the ring
+  std::vector<Index> face;            ///< face[i]: index that F_i takes
+  std::vector<Index> spoke;           ///< spoke[i]: index that s_i takes
+  std::vector<Index> old_face;        ///< faces of the disc before
+  std::vector<Index> old_place;       ///< for each of them, the place in the ring that it touches
+  std::vector<Index> old_spoke;       ///< edges inside the disc before
+  std::vector<Index> old_spoke_place; ///< the same for these, where the fan is closed
 
   /// New spokes that carry the ridge or border through the disc, the smaller first, or none. An
   /// open fan has one at most: the ridge leaves it at the apex.
@@ -50,6 +56,19 @@ struct Disc {
   Index after(Index i) const { return i + 1 == size() ? 0 : i + 1; }
   Index before(Index i) const { return i == 0 ? size() - 1 : i - 1; }
   bool is_ridge_spoke(Index i) const { return i == ridge[0] || i == ridge[1]; }
+
+  /// The new faces on that side of the ridge on which an old element at a place of the ring lies.
+  Side side_of_place(Index place) const
+  {
+    const auto [left, right] = ridge;
+    if (is_closed()) {
+      if (left == none) return {0, size()};
+      const bool between = left <= place && place < right;
+      return between ? Side{left, right - left} : Side{right, size() - (right - left)};
+    }
+    if (left == none) return {first, last + 1 - first};
+    return place < left ? Side{first, left - first} : Side{left, last + 1 - left};
+  }
 
   /// Calls visit(i) for each new face F_i, ghosts included where the fan is closed.
   template <class Visit>
@@ -102,7 +121,8 @@ struct Disc {
 
   void clear()
   {
-    for (auto* list : {&ring, &link, &face, &spoke, &old_face, &old_place, &old_spoke})
+    for (auto* list :
+         {&ring, &link, &face, &spoke, &old_face, &old_place, &old_spoke, &old_spoke_place})
       list->clear();
     removed = none;
     ridge = {none, none};
@@ -178,6 +198,7 @@ inline void append_star(const Working_mesh& mesh, Index first, Index last, Disc&
     disc.old_face.push_back(mesh.face(h));
     disc.old_place.push_back(disc.size());
     disc.old_spoke.push_back(mesh.edge(h));
+    disc.old_spoke_place.push_back(disc.size());
     disc.ring.push_back(mesh.target(h));
     disc.link.push_back(mesh.edge(mesh.next(h)));
     disc.face.push_back(mesh.face(h));
@@ -253,6 +274,7 @@ inline void make_placement_disc(const Working_mesh& mesh, Index h, Disc& disc)
   disc.old_face.insert(disc.old_face.end(), {mesh.face(h), mesh.face(o)});
   // Left of PQ the ring begins and ends, right of it the two parts meet.
   disc.old_place.insert(disc.old_place.end(), {0, right});
+  disc.old_spoke_place.insert(disc.old_spoke_place.end(), {0, 0, right});
   if (mesh.is_feature(mesh.edge(h))) discs::find_ridge_of_placement(mesh, right, disc);
 }
 
