@@ -170,10 +170,15 @@ inline bool Direct_bound::move_vertices()
   return admissible;
 }
 
+/// An edge without crossings whose ends go to one face stays what it is, and so does a triangle of
+/// such edges: with few faces left in M these are most.
 inline void Direct_bound::gather_edges()
 {
   for (const Moved_vertex& moved : vertices_)
-    for (const Index e : reference_.edges_at(moved.vertex)) gather_edge(e);
+    for (const Index e : reference_.edges_at(moved.vertex))
+      if (map_.first_node_of_t(e) != none
+          || !(image(reference_.other_end(e, moved.vertex)) == moved.image))
+        gather_edge(e);
   for (const Index spoke : disc_->old_spoke)
     map_.for_each_node_on_m(spoke, [&](Index n) { gather_edge(map_.node(n).t_edge); });
   if (disc_->kind == Disc::Kind::flip) gather_edges_of_flip();

@@ -67,8 +67,13 @@ public:
       changed_at_(mesh.number_of_real_vertices(), 0),
       shape_(controls.shape_ratio, controls.shape_floor),
       roughness_(reference, controls.roughness_cosine)
+  {}
+
+  /// From now on no operation may make a face that meets another one. Tells whether M has none.
+  bool start_guard()
   {
-    if (!controls.allow_self_intersections) guard_.emplace(mesh);
+    guard_.emplace(mesh_);
+    return guard_->finds_none();
   }
 
   const Working_mesh& mesh() const { return mesh_; }

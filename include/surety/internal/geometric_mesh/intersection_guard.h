@@ -29,6 +29,21 @@ public:
     build_tree();
   }
 
+  /// Whether no two faces of M meet where they should not.
+  bool finds_none() const
+  {
+    for (Index f = 0; f < mesh_.number_of_real_faces(); ++f) {
+      if (!mesh_.is_live_face(f)) continue;
+      const Corners corners = mesh_.vertices_of(f);
+      bool meets = CGAL::collinear(point(corners[0]), point(corners[1]), point(corners[2]));
+      tree_.for_each_meeting(box_of(corners), [&](Index g) {
+        meets = meets || (g > f && meet(corners, mesh_.vertices_of(g)));
+      });
+      if (meets) return false;
+    }
+    return true;
+  }
+
   /// Whether no new face of the disc meets any other face.
   bool admits(const Disc& disc)
   {

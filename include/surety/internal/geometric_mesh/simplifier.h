@@ -29,6 +29,17 @@ struct Simplification_plan {
   std::vector<Step>* log = nullptr;
 };
 
+/// When new self-intersections are looked for.
+enum class Guarding {
+  never,
+  /// After the first collapses, when M has few faces and a look at all of them is cheap; what was
+  /// done must be done again with the guard if there are any.
+  late,
+  always
+};
+
+enum class Outcome { complete, cancelled, intersects };
+
 class Simplifier
 {
 public:
@@ -36,10 +47,11 @@ public:
   Simplifier(
       const Reference& reference, Working_mesh& mesh, Deviation_policy& deviation,
       Direct_bound* direct, const Simplification_controls& controls,
-      const Simplification_plan& plan, Journal& journal,
+      const Simplification_plan& plan, Guarding guarding, Journal& journal,
       std::function<bool(const Progress&)> visitor)
     : mesh_(mesh),
       plan_(plan),
+      guarding_(guarding),
       editor_(reference, mesh, deviation, controls, journal),
       greedy_(reference, editor_, plan.places_freely ? direct : nullptr),
       improver_(editor_, deviation, plan.flip_rounds > 0, plan.places_freely),
@@ -50,10 +62,20 @@ public:
       transactions_.emplace(reference, editor_, *direct, greedy_, improver_, !plan.places_freely);
   }
 
-  /// Returns false when the visitor cancelled; M is valid and certified either way.
-  bool run()
+  /// M is valid and certified whatever the outcome.
+  Outcome run()
   {
-    if (plan_.seeks_goal) return seek();
+    if (plan_.log != nullptr) plan_.log->clear();
+    const bool is_complete = plan_.seeks_goal ? seek() : run_stages();
+    if (intersects_) return Outcome::intersects;
+    return is_complete ? Outcome::complete : Outcome::cancelled;
+  }
+
+  const Operations& operations() const { return editor_.operations(); }
+
+private:
+  bool run_stages()
+  {
     for (std::size_t stage = 0; stage < plan_.stages.size(); ++stage) {
       const bool is_last = stage + 1 == plan_.stages.size();
       if (!run_stage(plan_.stages[stage], is_last)) return false;
@@ -72,9 +94,6 @@ public:
     }
   }
 
-  const Operations& operations() const { return editor_.operations(); }
-
-private:
   bool run_stage(double share, bool with_transactions)
   {
     deviation_.set_stage(share);
@@ -84,7 +103,7 @@ private:
   bool run_collapses()
   {
     greedy_.start();
-    if (!collapse()) return false;
+    if (!collapse() || !is_guarded()) return false;
     for (unsigned round = 0; round < plan_.flip_rounds && !is_done(); ++round) {
       const std::size_t flips = editor_.operations().flips;
       if (!sweep(false)) return false;
@@ -92,6 +111,15 @@ private:
       if (!collapse()) return false;
     }
     return true;
+  }
+
+  /// Starts a late guard, and tells whether it comes in time.
+  bool is_guarded()
+  {
+    if (guarding_ != Guarding::late) return true;
+    guarding_ = Guarding::always;
+    intersects_ = !editor_.start_guard();
+    return !intersects_;
   }
 
   bool run_transactions()
@@ -143,11 +171,13 @@ private:
 
   Working_mesh& mesh_;
   Simplification_plan plan_;
+  Guarding guarding_;
   Editor editor_;
   Greedy greedy_;
   Improver improver_;
   Deviation_policy& deviation_;
   std::optional<Transactions> transactions_;
+  bool intersects_ = false;
   std::function<bool(const Progress&)> visitor_;
 };
 

@@ -144,38 +144,51 @@ template <class Mesh>
 class Workspace
 {
 public:
+  /// The mesh must stay as it is until write_back().
   template <class NamedParameters>
   Workspace(const Mesh& mesh, double tolerance, const NamedParameters& np, const char* function)
-    : features_(validated_features(mesh, np, function)),
+    : source_(mesh),
+      features_(validated_features(mesh, np, function)),
       scale_(normalising_scale(mesh, vertex_points(mesh, np))),
       elements_(mesh, vertex_points(mesh, np)),
-      connectivity_(read_connectivity(mesh, elements_)),
       reference_(make_reference(
-          elements_, points_in_order(elements_, vertex_points(mesh, np), scale_), connectivity_)),
-      working_(make_working_mesh(
-          elements_, features_, std::move(connectivity_),
-          points_in_order(elements_, vertex_points(mesh, np), scale_), journal_)),
+          elements_, points_in_order(elements_, vertex_points(mesh, np), scale_),
+          read_connectivity(mesh, elements_))),
       is_feature_(features_in_order(elements_, features_)),
-      face_position_(face_positions(elements_, mesh))
+      face_position_(face_positions(elements_, mesh)),
+      tolerance_(scale_ * tolerance),
+      varying_tolerance_(varying_tolerance(mesh, elements_, tolerance, np, function)),
+      kind_(parameter_or(np, deviation_bound, defaults::deviation_bound))
   {
+    if (kind_ == Deviation_bound::accumulated && !varying_tolerance_.empty())
+      throw Invalid_input(
+          function, "tolerance maps", "the accumulated bound knows one tolerance only",
+          "use Deviation_bound::direct");
     using Coordinate
         = std::decay_t<decltype(get(vertex_points(mesh, np), *mesh.vertices().begin()).x())>;
     has_float_points_ = std::is_same_v<Coordinate, float>;
-    make_bound(mesh, tolerance, np, function);
+    for (double& value : varying_tolerance_) value *= scale_;
+    start();
   }
 
   std::pair<Operations, bool> simplify(
       Simplification_controls controls, const Simplification_plan& plan,
-      std::function<bool(const Progress&)> visitor)
+      const std::function<bool(const Progress&)>& visitor)
   {
     controls.single_precision = controls.single_precision || has_float_points_;
-    Simplifier simplifier(
-        reference_, working_, *deviation_, direct_, controls, plan, journal_, std::move(visitor));
-    const bool is_complete = simplifier.run();
-    return {simplifier.operations(), is_complete};
+    for (Guarding guarding : {Guarding::late, Guarding::always}) {
+      if (controls.allow_self_intersections) guarding = Guarding::never;
+      Simplifier simplifier(
+          reference_, *working_, *deviation_, direct_, controls, plan, guarding, journal_, visitor);
+      const Outcome outcome = simplifier.run();
+      if (outcome != Outcome::intersects)
+        return {simplifier.operations(), outcome == Outcome::complete};
+      start();
+    }
+    return {};
   }
 
-  const Working_mesh& mesh() const { return working_; }
+  const Working_mesh& mesh() const { return *working_; }
   const Elements<Mesh>& elements() const { return elements_; }
   const Reference& reference() const { return reference_; }
   double scale() const { return scale_; }
@@ -192,8 +205,8 @@ public:
   template <class NamedParameters>
   Compaction write_back(Mesh& mesh, const NamedParameters& np) const
   {
-    write_connectivity(working_, elements_, mesh);
-    write_points(working_, reference_, elements_, scale_, vertex_points(mesh, np));
+    write_connectivity(*working_, elements_, mesh);
+    write_points(*working_, reference_, elements_, scale_, vertex_points(mesh, np));
     return compact(elements_, mesh);
   }
 
@@ -202,7 +215,7 @@ public:
   std::optional<Correspondence> record(const Compaction& compaction)
   {
     if (direct_ == nullptr) return std::nullopt;
-    return Recorder(reference_, working_, direct_->map(), elements_.input_position, compaction)
+    return Recorder(reference_, *working_, direct_->map(), elements_.input_position, compaction)
         .record(is_feature_, direct_->inner_items(), face_position_);
   }
 
@@ -217,40 +230,41 @@ private:
     return features;
   }
 
-  template <class NamedParameters>
-  void make_bound(
-      const Mesh& mesh, double tolerance, const NamedParameters& np, const char* function)
+  /// Makes M equal to T, and phi the identity.
+  void start()
   {
-    std::vector<double> varying = varying_tolerance(mesh, elements_, tolerance, np, function);
-    if (parameter_or(np, deviation_bound, defaults::deviation_bound)
-        == Deviation_bound::accumulated) {
-      if (!varying.empty())
-        throw Invalid_input(
-            function, "tolerance maps", "the accumulated bound knows one tolerance only",
-            "use Deviation_bound::direct");
-      deviation_ = std::make_unique<Accumulated_bound>(reference_, working_, scale_ * tolerance);
+    std::vector<Vector> points(reference_.number_of_vertices());
+    for (Index v = 0; v < points.size(); ++v) points[v] = reference_.point(v);
+    deviation_.reset();
+    working_.emplace(make_working_mesh(
+        elements_, features_, read_connectivity(source_, elements_), std::move(points), journal_));
+    direct_ = nullptr;
+    if (kind_ == Deviation_bound::accumulated) {
+      deviation_ = std::make_unique<Accumulated_bound>(reference_, *working_, tolerance_);
       return;
     }
-    const Rounding rounding(Direct_bound::largest_coordinate(reference_, scale_ * tolerance));
-    for (double& value : varying) value *= scale_;
+    const Rounding rounding(Direct_bound::largest_coordinate(reference_, tolerance_));
     auto bound = std::make_unique<Direct_bound>(
-        reference_, working_,
-        varying.empty() ? Tolerance(rounding, scale_ * tolerance)
-                        : Tolerance(rounding, std::move(varying)),
+        reference_, *working_,
+        varying_tolerance_.empty() ? Tolerance(rounding, tolerance_)
+                                   : Tolerance(rounding, varying_tolerance_),
         journal_);
     direct_ = bound.get();
     deviation_ = std::move(bound);
   }
 
+  const Mesh& source_;
   Features features_;
   double scale_;
   Elements<Mesh> elements_;
-  Working_mesh::Connectivity connectivity_;
   Reference reference_;
   Journal journal_;
-  Working_mesh working_;
+  std::optional<Working_mesh> working_;
   std::vector<bool> is_feature_;
   std::vector<Index> face_position_;
+  double tolerance_;
+  std::vector<double> varying_tolerance_;
+  Deviation_bound kind_;
   bool has_float_points_ = false;
   std::unique_ptr<Deviation_policy> deviation_;
   Direct_bound* direct_ = nullptr;
