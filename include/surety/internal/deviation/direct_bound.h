@@ -26,6 +26,7 @@
 #include <surety/internal/deviation/policy.h>
 #include <surety/internal/deviation/reference.h>
 #include <surety/internal/deviation/tolerance.h>
+#include <surety/internal/operators/disc_edges.h>
 
 #include <array>
 #include <optional>
@@ -53,6 +54,7 @@ public:
       map_(
           reference.number_of_vertices(), reference.number_of_edges(), mesh.number_of_edges(),
           mesh.number_of_real_faces(), journal),
+      disc_edges_(mesh.number_of_edges()),
       slot_of_vertex_(reference.number_of_vertices(), 0),
       slot_of_edge_(reference.number_of_edges(), 0),
       blocker_(reference.number_of_vertices(), none)
@@ -200,6 +202,7 @@ private:
   void forget_disc()
   {
     disc_ = &no_disc_;
+    disc_edges_.clear();
     vertices_.clear();
     edges_.clear();
     nodes_.clear();
@@ -214,6 +217,7 @@ private:
   // What check() worked out, kept for commit().
   Disc no_disc_;
   const Disc* disc_ = nullptr;
+  Disc_edges disc_edges_;
   std::vector<Moved_vertex> vertices_;
   std::vector<Routed_edge> edges_;
   std::vector<Pending_node> nodes_;

@@ -54,6 +54,7 @@ inline Verdict Direct_bound::check(const Disc& disc)
   forget_disc();
   disc_ = &disc;
   if (is_blocked() || !apex_is_in_range() || !move_vertices()) return Verdict::deviation;
+  disc_edges_.assign(disc);
   gather_edges();
   const Verdict verdict = route_edges();
   if (verdict != Verdict::accept) return verdict;
@@ -228,7 +229,7 @@ inline bool Direct_bound::stop_at_vertex(Index v, double lambda, Stop& stop) con
 
 inline bool Direct_bound::stop_at_node(const Pending_node& node, Stop& stop) const
 {
-  const Index i = disc_->position_in_link(node.m_edge);
+  const Index i = disc_edges_[node.m_edge].link;
   if (i == none) return false;
   stop = {disc_->fan_face_at_link(i), 1, node.lambda};
   return true;
@@ -277,7 +278,7 @@ inline Verdict Direct_bound::route(Index e)
   const std::size_t first = nodes_.size();
   for (Index n = map_.first_node_of_t(e); n != none; n = map_.node(n).next_on_t) {
     const Node& node = map_.node(n);
-    if (disc_->position_of_old_spoke(node.m_edge) != none) {
+    if (disc_edges_[node.m_edge].is_old_spoke) {
       through_disc = true;
       continue;
     }
@@ -309,7 +310,7 @@ inline bool Direct_bound::runs_inside(Index e, Index previous, Index next) const
       const Index j = disc_->position_in_ring(element.id());
       if (j != none) links = 1u << j | 1u << (j + 3) % 4;
     } else if (element.kind() == Element::Kind::edge) {
-      const Index i = disc_->position_in_link(element.id());
+      const Index i = disc_edges_[element.id()].link;
       if (i != none) links = 1u << i;
     }
     return links;
@@ -466,18 +467,14 @@ inline Item Direct_bound::item_at_vertex(Index v) const
 
 inline Item Direct_bound::item_on_edge(Index m_edge) const
 {
-  Item item{Element(Element::Kind::edge, m_edge), {none, none}};
-  const Index spoke = disc_->position_of_new_spoke(m_edge);
-  if (spoke != none) {
-    item.face[0] = disc_->face[disc_->before(spoke)];
-    item.face[1] = disc_->face[spoke];
-  } else {
-    const Index link = disc_->position_in_link(m_edge);
-    for (int side = 0; side < 2; ++side) {
-      const Index f = mesh_.face(mesh_.halfedge(m_edge) + static_cast<Index>(side));
-      const bool inner = link != none && disc_->position_of_old_face(f) != none;
-      item.face[side] = inner ? disc_->face[disc_->fan_face_at_link(link)] : f;
-    }
+  const Disc_edges::Role& role = disc_edges_[m_edge];
+  const Index h = mesh_.halfedge(m_edge);
+  Item item{Element(Element::Kind::edge, m_edge), {mesh_.face(h), mesh_.face(mesh_.opposite(h))}};
+  if (role.new_spoke != none) {
+    item.face[0] = disc_->face[disc_->before(role.new_spoke)];
+    item.face[1] = disc_->face[role.new_spoke];
+  } else if (role.link != none) {
+    item.face[disc_->inner[role.link] - h] = disc_->face[disc_->fan_face_at_link(role.link)];
   }
   for (Index& f : item.face)
     if (f != none && mesh_.is_ghost_face(f)) f = none;

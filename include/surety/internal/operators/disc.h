@@ -36,6 +36,7 @@ struct Disc {
 
   std::vector<Index> ring;            ///< r_0, r_1, ..., r_{k-1}, counter-clockwise
   std::vector<Index> link;            ///< edge (r_i, r_{i+1}) of the ring
+  std::vector<Index> inner;           ///< its half-edge inside the disc
   std::vector<Index> face;            ///< face[i]: index that F_i takes
   std::vector<Index> spoke;           ///< spoke[i]: index that s_i takes
   std::vector<Index> old_face;        ///< faces of the disc before
@@ -80,12 +81,10 @@ struct Disc {
       for (Index i = first; i <= last; ++i) visit(i);
   }
 
-  /// Position of an edge in the link, of a vertex in the ring, of a face among the new or the old
-  /// ones; `none` where it is not there. Rings are short, so that a scan is the fastest index.
-  Index position_in_link(Index e) const { return position(link, e); }
+  /// Position of a vertex in the ring, of a face among the new or the old ones; `none` where it is
+  /// not there. Rings are short, so that a scan is the fastest index.
   Index position_in_ring(Index v) const { return position(ring, v); }
   Index position_of_old_face(Index f) const { return position(old_face, f); }
-  Index position_of_old_spoke(Index e) const { return position(old_spoke, e); }
   Index position_of_new_face(Index f) const
   {
     if (is_closed()) return position(face, f);
@@ -93,12 +92,12 @@ struct Disc {
       if (face[i] == f) return i;
     return none;
   }
-  Index position_of_new_spoke(Index e) const
+  /// Calls visit(i) for each new spoke s_i.
+  template <class Visit>
+  void for_each_new_spoke(Visit visit) const
   {
-    if (is_closed()) return position(spoke, e);
-    for (Index i = 2; i + 1 < size(); ++i)
-      if (spoke[i] == e) return i;
-    return none;
+    const Index low = is_closed() ? 0 : 2, high = is_closed() ? size() : size() - 1;
+    for (Index i = low; i < high; ++i) visit(i);
   }
 
   /// The new face on the inner side of link edge i.
@@ -122,7 +121,7 @@ struct Disc {
   void clear()
   {
     for (auto* list :
-         {&ring, &link, &face, &spoke, &old_face, &old_place, &old_spoke, &old_spoke_place})
+         {&ring, &link, &inner, &face, &spoke, &old_face, &old_place, &old_spoke, &old_spoke_place})
       list->clear();
     removed = none;
     ridge = {none, none};
@@ -153,6 +152,7 @@ inline void make_collapse_disc(const Working_mesh& mesh, Index h, Disc& disc)
     disc.old_place.push_back(disc.size());
     disc.ring.push_back(mesh.target(spoke));
     disc.link.push_back(mesh.edge(mesh.next(spoke)));
+    disc.inner.push_back(mesh.next(spoke));
     disc.old_face.push_back(mesh.face(spoke));
     disc.old_spoke.push_back(mesh.edge(spoke));
     spoke = mesh.opposite(mesh.prev(spoke));
@@ -179,6 +179,7 @@ inline void make_flip_disc(const Working_mesh& mesh, Index h, Disc& disc)
   disc.stay_at(mesh);
   disc.keeps_pin = true;
   disc.link = {mesh.edge(ca), mesh.edge(ad), mesh.edge(db), mesh.edge(bc)};
+  disc.inner = {ca, ad, db, bc};
   disc.face = {none, mesh.face(h), mesh.face(o), none};
   disc.spoke = {none, none, mesh.edge(h), none};
   disc.old_face = {mesh.face(h), mesh.face(o)};
@@ -201,6 +202,7 @@ inline void append_star(const Working_mesh& mesh, Index first, Index last, Disc&
     disc.old_spoke_place.push_back(disc.size());
     disc.ring.push_back(mesh.target(h));
     disc.link.push_back(mesh.edge(mesh.next(h)));
+    disc.inner.push_back(mesh.next(h));
     disc.face.push_back(mesh.face(h));
     disc.spoke.push_back(mesh.edge(h));
     h = mesh.opposite(mesh.prev(h));
