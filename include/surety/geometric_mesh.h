@@ -51,6 +51,9 @@ void write_deviation(
 /// On return the mesh is compacted: descriptors are renumbered, property maps stay valid and keep
 /// the values of what survives. When an exception is thrown the mesh is unchanged.
 ///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag` (the default) or `CGAL::Parallel_tag`, which needs
+///   TBB. From some 130,000 faces on the mesh is simplified in patches first, and these on as many
+///   threads as there are; the result is the same for any number of threads.
 /// \param mesh a `CGAL::Surface_mesh` with coordinates convertible to `double`; may have borders,
 ///   several components and any genus.
 /// \param tolerance largest two-sided Hausdorff distance to the input, in mesh units.
@@ -174,7 +177,9 @@ void write_deviation(
 ///     \cgalParamDefault{`get(CGAL::vertex_point, mesh)`}
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
-template <class Mesh, class NamedParameters = CGAL::parameters::Default_named_parameters>
+template <
+    class ConcurrencyTag = CGAL::Sequential_tag, class Mesh,
+    class NamedParameters = CGAL::parameters::Default_named_parameters>
 Certificate make_geometric_mesh(
     Mesh& mesh, double tolerance, const NamedParameters& np = CGAL::parameters::default_values())
 {
@@ -184,7 +189,7 @@ Certificate make_geometric_mesh(
   const auto plan = internal::simplification_plan(np, function);
   internal::Workspace<Mesh> work(mesh, tolerance, np, function);
   const auto [operations, is_complete]
-      = work.simplify(controls, plan, internal::progress_reporter(np));
+      = work.template simplify<ConcurrencyTag>(controls, plan, internal::progress_reporter(np));
 
   const std::vector<double> bounds = work.face_bounds();
   const internal::Compaction compaction = work.write_back(mesh, np);

@@ -39,6 +39,15 @@ struct Operations {
   std::size_t relocations = 0; ///< vertices moved
   std::array<std::size_t, number_of_verdicts> refused{};
 
+  Operations& operator+=(const Operations& o)
+  {
+    collapses += o.collapses;
+    flips += o.flips;
+    relocations += o.relocations;
+    for (std::size_t i = 0; i < number_of_verdicts; ++i) refused[i] += o.refused[i];
+    return *this;
+  }
+
   void refuse(Verdict verdict) { ++refused[static_cast<std::size_t>(verdict)]; }
 };
 

@@ -21,7 +21,8 @@ namespace surety::internal {
 class Working_mesh
 {
 public:
-  /// Half-edges 2e and 2e + 1 are edge e. A border half-edge comes with face `none`.
+  /// Half-edges 2e and 2e + 1 are edge e. A border half-edge comes with face `none`, and its next
+  /// one does not matter; an edge without any face is gone, and so is a vertex without edges.
   struct Connectivity {
     std::vector<Index> next, target, face;
     Index vertices = 0, faces = 0;
@@ -40,8 +41,7 @@ public:
       fixed_(std::move(fixed_vertex)),
       real_vertices_(connectivity.vertices),
       real_faces_(connectivity.faces),
-      real_edges_(static_cast<Index>(next_.size() / 2)),
-      live_faces_(connectivity.faces)
+      real_edges_(static_cast<Index>(next_.size() / 2))
   {
     close_borders();
     index_halfedges();
@@ -82,6 +82,10 @@ public:
   bool is_live_edge(Index e) const { return face_[2 * e] != none; }
   bool is_feature(Index e) const { return feature_[e]; }
   bool is_fixed(Index v) const { return fixed_[v]; }
+  /// Whether the star of the vertex goes on beyond M, which is only a part of a mesh then. Nothing
+  /// is collapsed into such a vertex, since the link condition could not be seen to hold.
+  bool is_sealed(Index v) const { return !sealed_.empty() && sealed_[v]; }
+  void seal(std::vector<bool> sealed) { sealed_ = std::move(sealed); }
   /// Whether the vertex is on a ridge or border, on which it then stays as long as it lives.
   bool is_on_feature(Index v) const { return on_feature_[v]; }
   bool is_border(Index e) const
@@ -126,6 +130,7 @@ public:
   void flip(Index h);
 
 private:
+  Index next_on_border(Index h) const;
   void close_borders();
   void index_halfedges();
   void set(Index& place, Index value) { journal_->set(place, value); }
@@ -154,8 +159,8 @@ private:
   std::vector<Vector> points_;
   std::vector<Index> anchor_;
   std::vector<Index> vertex_halfedge_, face_halfedge_;
-  std::vector<bool> feature_, fixed_, on_feature_;
-  Index real_vertices_, real_faces_, real_edges_, live_faces_;
+  std::vector<bool> feature_, fixed_, on_feature_, sealed_;
+  Index real_vertices_, real_faces_, real_edges_, live_faces_ = 0;
 };
 
 inline void Working_mesh::collapse(Index h)
@@ -199,15 +204,23 @@ inline void Working_mesh::flip(Index h)
   set(vertex_halfedge_[c], h), set(vertex_halfedge_[d], o);
 }
 
+/// The border half-edge that follows where the faces on the other side of h end.
+inline Index Working_mesh::next_on_border(Index h) const
+{
+  Index k = opposite(h);
+  while (face_[k] != none) k = opposite(prev(k));
+  return k;
+}
+
 inline void Working_mesh::close_borders()
 {
   const auto real_halfedges = static_cast<Index>(next_.size());
   Index vertex = real_vertices_, face = real_faces_;
   std::vector<Index> loop;
   for (Index start = 0; start < real_halfedges; ++start) {
-    if (face_[start] != none) continue;
+    if (face_[start] != none || face_[opposite(start)] == none) continue;
     loop.clear();
-    for (Index h = start; loop.empty() || h != start; h = next_[h]) loop.push_back(h);
+    for (Index h = start; loop.empty() || h != start; h = next_on_border(h)) loop.push_back(h);
 
     // Ghost edge i leaves the target of loop[i] and is followed round the loop.
     const auto first = static_cast<Index>(next_.size());
@@ -234,9 +247,11 @@ inline void Working_mesh::close_borders()
 inline void Working_mesh::index_halfedges()
 {
   for (Index h = 0; h < next_.size(); ++h) {
+    if (face_[h] == none) continue;
     vertex_halfedge_[target_[h]] = h;
     face_halfedge_[face_[h]] = h;
   }
+  for (Index f = 0; f < real_faces_; ++f) live_faces_ += is_live_face(f);
 }
 
 } // namespace surety::internal

@@ -74,13 +74,15 @@ public:
   std::vector<double> face_bounds() override;
 
   const Map& map() const { return map_; }
+  /// For phi as it was worked out elsewhere.
+  Map& map() { return map_; }
   const Tolerance& tolerance() const { return tolerance_; }
   /// Checks against a multiple of the tolerance until the next call. What is committed meanwhile
   /// must come to be within the tolerance, or be undone, before a result is made of it.
   void overshoot(double factor) { tolerance_.overshoot(factor); }
 
-  /// The largest ratio of a squared distance and its limit among what maps to a vertex, an edge or a
-  /// face.
+  /// The largest ratio of a squared distance and its limit among what maps to a vertex, an edge or
+  /// a face.
   double largest_ratio_at_vertex(Index m_vertex) const;
   double largest_ratio_on_face(Index m_face) const;
   double largest_ratio_on_edge(Index m_edge) const;

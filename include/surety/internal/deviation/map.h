@@ -127,6 +127,16 @@ public:
     set(nodes_[n].next_on_t, free_);
     set(free_, n);
   }
+  /// Appends a node to T edge `t_edge`, whose last one so far is `last`; returns it.
+  Index append_node(Index t_edge, Index last, Index m_edge, double lambda)
+  {
+    const Index n = add_node(t_edge, m_edge, lambda);
+    if (last == none)
+      set_first_node(t_edge, n);
+    else
+      set_next_node(last, n);
+    return n;
+  }
   void set_first_node(Index t_edge, Index n) { set(first_node_of_t_[t_edge], n); }
   void set_next_node(Index n, Index next) { set(nodes_[n].next_on_t, next); }
 

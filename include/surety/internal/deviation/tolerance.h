@@ -31,6 +31,16 @@ public:
     update();
   }
 
+  /// The same for some of the vertices.
+  Tolerance restricted_to(const std::vector<Index>& vertices) const
+  {
+    Tolerance result = *this;
+    result.at_vertices_.clear();
+    if (is_uniform()) return result;
+    for (const Index v : vertices) result.at_vertices_.push_back(at_vertices_[v]);
+    return result;
+  }
+
   /// The share of the tolerance that counts in this stage.
   void set_stage(double share)
   {

@@ -24,11 +24,14 @@ class Greedy
 public:
   /// Given the bound, vertices are placed freely: the vertex that two become goes where its quadric
   /// is least.
-  Greedy(const Reference& reference, Editor& editor, const Direct_bound* free_bound)
+  Greedy(
+      const Reference& reference, Editor& editor, const Direct_bound* free_bound,
+      const Vector& origin)
     : reference_(reference),
       editor_(editor),
       mesh_(editor.mesh()),
       walk_(reference),
+      origin_(origin),
       bound_(free_bound),
       queue_(reference.number_of_vertices()),
       quadric_(reference.number_of_vertices()),
@@ -59,6 +62,10 @@ public:
     return true;
   }
 
+  /// What a vertex stands for, to be handed over from one to another of the same origin.
+  const Quadric& quadric(Index v) const { return quadric_[v]; }
+  void set_quadric(Index v, const Quadric& quadric) { quadric_[v] = quadric; }
+
   /// To be called for what others do to M: vertices of a disc that has changed, and P -> Q.
   void retry_around(const Disc& disc)
   {
@@ -82,7 +89,7 @@ public:
   }
 
 private:
-  const Vector& origin() const { return reference_.point(0); }
+  const Vector& origin() const { return origin_; }
   void initialise_quadrics();
   void schedule(Index p);
   double cost(Index h) const;
@@ -101,10 +108,11 @@ private:
   Editor& editor_;
   const Working_mesh& mesh_;
   Surface_walk walk_;
+  Vector origin_;             ///< that quadrics are relative to
   const Direct_bound* bound_; ///< with free placement
 
   Vertex_queue queue_;
-  std::vector<Quadric> quadric_; ///< relative to the first point
+  std::vector<Quadric> quadric_; ///< relative to the origin
   std::vector<Index> best_;      ///< the cheapest half-edge out of a queued vertex
   std::vector<bool> refused_;    ///< a half-edge refused since its source's star last changed
   Disc disc_;

@@ -47,13 +47,13 @@ public:
   Simplifier(
       const Reference& reference, Working_mesh& mesh, Deviation_policy& deviation,
       Direct_bound* direct, const Simplification_controls& controls,
-      const Simplification_plan& plan, Guarding guarding, Journal& journal,
+      const Simplification_plan& plan, Guarding guarding, Journal& journal, const Vector& origin,
       std::function<bool(const Progress&)> visitor)
     : mesh_(mesh),
       plan_(plan),
       guarding_(guarding),
       editor_(reference, mesh, deviation, controls, journal),
-      greedy_(reference, editor_, plan.places_freely ? direct : nullptr),
+      greedy_(reference, editor_, plan.places_freely ? direct : nullptr, origin),
       improver_(editor_, deviation, plan.flip_rounds > 0, plan.places_freely),
       deviation_(deviation),
       visitor_(std::move(visitor))
@@ -72,6 +72,7 @@ public:
   }
 
   const Operations& operations() const { return editor_.operations(); }
+  Greedy& greedy() { return greedy_; }
 
 private:
   bool run_stages()

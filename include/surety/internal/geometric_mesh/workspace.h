@@ -8,7 +8,9 @@
 #include <surety/features.h>
 #include <surety/internal/deviation/accumulated_bound.h>
 #include <surety/internal/deviation/direct_bound.h>
+#include <surety/internal/geometric_mesh/concurrency.h>
 #include <surety/internal/geometric_mesh/exchange.h>
+#include <surety/internal/geometric_mesh/patch.h>
 #include <surety/internal/geometric_mesh/record.h>
 #include <surety/internal/geometric_mesh/simplifier.h>
 #include <surety/internal/validation.h>
@@ -168,9 +170,11 @@ public:
         = std::decay_t<decltype(get(vertex_points(mesh, np), *mesh.vertices().begin()).x())>;
     has_float_points_ = std::is_same_v<Coordinate, float>;
     for (double& value : varying_tolerance_) value *= scale_;
-    start();
+    start(read_connectivity(mesh, elements_));
   }
 
+  /// With a parallel tag patches are simplified on many threads; the result does not depend on it.
+  template <class ConcurrencyTag>
   std::pair<Operations, bool> simplify(
       Simplification_controls controls, const Simplification_plan& plan,
       const std::function<bool(const Progress&)>& visitor)
@@ -178,12 +182,22 @@ public:
     controls.single_precision = controls.single_precision || has_float_points_;
     for (Guarding guarding : {Guarding::late, Guarding::always}) {
       if (controls.allow_self_intersections) guarding = Guarding::never;
+      Operations operations;
+      bool is_complete = true;
+      std::vector<Patch> patches;
+      if (guarding != Guarding::always && is_worth_patches(plan)) {
+        is_complete = simplify_patches<ConcurrencyTag>(patches, controls, plan, visitor);
+        for (const Patch& patch : patches) operations += patch.operations();
+      }
       Simplifier simplifier(
-          reference_, *working_, *deviation_, direct_, controls, plan, guarding, journal_, visitor);
-      const Outcome outcome = simplifier.run();
-      if (outcome != Outcome::intersects)
-        return {simplifier.operations(), outcome == Outcome::complete};
-      start();
+          reference_, *working_, *deviation_, direct_, controls, plan, guarding, journal_,
+          reference_.point(0), visitor);
+      for (const Patch& patch : patches) patch.merge_into(simplifier.greedy());
+      patches.clear();
+      const Outcome outcome = is_complete ? simplifier.run() : Outcome::cancelled;
+      operations += simplifier.operations();
+      if (outcome != Outcome::intersects) return {operations, outcome == Outcome::complete};
+      start(read_connectivity(source_, elements_));
     }
     return {};
   }
@@ -230,14 +244,65 @@ private:
     return features;
   }
 
-  /// Makes M equal to T, and phi the identity.
-  void start()
+  static constexpr Index faces_a_patch = 1 << 16;
+
+  bool is_worth_patches(const Simplification_plan& plan) const
+  {
+    return kind_ == Deviation_bound::direct && plan.stages.size() == 1 && !plan.seeks_goal
+        && plan.fewest_faces == 0 && plan.log == nullptr && !plan.on_stage
+        && reference_.number_of_faces() >= 2 * faces_a_patch;
+  }
+
+  /// Simplifies the patches and puts M and phi together from them.
+  template <class ConcurrencyTag>
+  bool simplify_patches(
+      std::vector<Patch>& patches, const Simplification_controls& controls,
+      const Simplification_plan& plan, const std::function<bool(const Progress&)>& visitor)
+  {
+    auto connectivity = read_connectivity(source_, elements_);
+    std::vector<bool> is_fixed(elements_.vertices.size());
+    for (Index v = 0; v < is_fixed.size(); ++v)
+      is_fixed[v] = features_.corner[elements_.vertices[v]];
+    const Whole whole{
+        reference_,          connectivity, is_feature_, is_fixed, elements_.input_position,
+        direct_->tolerance()};
+    const Index faces = reference_.number_of_faces();
+    const Index number = faces / faces_a_patch;
+    std::vector<std::optional<Patch>> made(number);
+    Shared_progress progress(visitor, number, faces);
+    for_each_index<ConcurrencyTag>(number, [&](Index i) {
+      if (progress.is_cancelled()) return;
+      const auto bound_of
+          = [&](Index k) { return static_cast<Index>(std::uint64_t(faces) * k / number); };
+      made[i].emplace(whole, bound_of(i), bound_of(i + 1));
+      const bool is_complete = made[i]->simplify(whole, controls, plan, progress.of_patch());
+      progress.finish(is_complete);
+    });
+    for (auto& patch : made)
+      if (patch) patches.push_back(std::move(*patch));
+    made.clear();
+    for (const Patch& patch : patches) patch.merge_into(connectivity);
+    start(std::move(connectivity));
+    for (const Patch& patch : patches) {
+      patch.merge_into(*working_);
+      patch.merge_into(direct_->map());
+    }
+    return !progress.is_cancelled();
+  }
+
+  std::vector<Vector> original_points() const
   {
     std::vector<Vector> points(reference_.number_of_vertices());
     for (Index v = 0; v < points.size(); ++v) points[v] = reference_.point(v);
+    return points;
+  }
+
+  /// Makes M, with phi the identity.
+  void start(Working_mesh::Connectivity connectivity)
+  {
     deviation_.reset();
     working_.emplace(make_working_mesh(
-        elements_, features_, read_connectivity(source_, elements_), std::move(points), journal_));
+        elements_, features_, std::move(connectivity), original_points(), journal_));
     direct_ = nullptr;
     if (kind_ == Deviation_bound::accumulated) {
       deviation_ = std::make_unique<Accumulated_bound>(reference_, *working_, tolerance_);

@@ -42,7 +42,7 @@ inline bool satisfies_ridge_rule(const Working_mesh& mesh, Disc& disc)
 
 inline Verdict check_collapse_topology(const Working_mesh& mesh, Disc& disc)
 {
-  if (mesh.is_fixed(disc.removed) || mesh.is_ghost_vertex(disc.apex)
+  if (mesh.is_fixed(disc.removed) || mesh.is_ghost_vertex(disc.apex) || mesh.is_sealed(disc.apex)
       || !satisfies_ridge_rule(mesh, disc))
     return Verdict::feature;
   return satisfies_link_condition(mesh, disc) ? Verdict::accept : Verdict::topology;
@@ -70,6 +70,7 @@ inline Verdict check_placement_topology(const Working_mesh& mesh, Disc& disc)
 inline Verdict check_flip_topology(const Working_mesh& mesh, const Disc& disc)
 {
   if (mesh.is_feature(disc.old_spoke[0])) return Verdict::feature;
+  if (mesh.is_sealed(disc.ring[0]) && mesh.is_sealed(disc.ring[2])) return Verdict::topology;
   bool exists = false;
   mesh.for_each_outgoing(
       disc.apex, [&](Index h) { exists = exists || mesh.target(h) == disc.ring[2]; });

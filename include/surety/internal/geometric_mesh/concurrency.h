@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Loops over independent pieces of work, on one thread or on many, and what they tell a visitor.
+#ifndef SURETY_INTERNAL_GEOMETRIC_MESH_CONCURRENCY_H
+#define SURETY_INTERNAL_GEOMETRIC_MESH_CONCURRENCY_H
+
+#include <surety/internal/linear.h>
+#include <surety/parameters.h>
+
+#include <CGAL/tags.h>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/parallel_for.h>
+#endif
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <type_traits>
+
+namespace surety::internal {
+
+/// Calls work(i) for each i below `number`.
+template <class ConcurrencyTag, class Work>
+void for_each_index(Index number, const Work& work)
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  if constexpr (std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>) {
+    tbb::parallel_for(Index(0), number, work);
+    return;
+  }
+#else
+  static_assert(
+      !std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>,
+      "CGAL::Parallel_tag needs TBB: link CGAL::TBB_support");
+#endif
+  for (Index i = 0; i < number; ++i) work(i);
+}
+
+/// Puts together what many patches tell one visitor, one call at a time.
+class Shared_progress
+{
+public:
+  Shared_progress(
+      const std::function<bool(const Progress&)>& visitor, Index patches, std::size_t faces)
+    : visitor_(visitor), patches_(patches), faces_(faces)
+  {}
+
+  bool is_cancelled() const { return cancelled_; }
+
+  /// The visitor of one patch: it looks at the faces of the patch only, and so tells the share of
+  /// the patches that are done.
+  std::function<bool(const Progress&)> of_patch()
+  {
+    return [this](const Progress&) { return !cancelled_ && tell(); };
+  }
+  void finish(bool is_complete)
+  {
+    ++finished_;
+    if (!is_complete) cancelled_ = true;
+  }
+
+private:
+  bool tell()
+  {
+    if (!visitor_) return true;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!visitor_({"patches", double(finished_) / patches_, faces_})) cancelled_ = true;
+    return !cancelled_;
+  }
+
+  const std::function<bool(const Progress&)>& visitor_;
+  Index patches_;
+  std::size_t faces_;
+  std::mutex mutex_;
+  std::atomic<Index> finished_{0};
+  std::atomic<bool> cancelled_{false};
+};
+
+} // namespace surety::internal
+
+#endif // SURETY_INTERNAL_GEOMETRIC_MESH_CONCURRENCY_H
