@@ -147,6 +147,12 @@ void write_deviation(
 ///     \cgalParamType{`std::size_t`}
 ///     \cgalParamDefault{0, as few as the tolerance allows}
 ///   \cgalParamNEnd
+///   \cgalParamNBegin{normal_tolerance}
+///     \cgalParamDescription{largest angle between a face and the faces of the input that the map
+///       of the direct bound makes correspond to it}
+///     \cgalParamType{`double`, in degrees, in (0, 180]; 180: no bound}
+///     \cgalParamDefault{180}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{stages}
 ///     \cgalParamDescription{number of stages in which the tolerance grows in equal steps}
 ///     \cgalParamType{`unsigned int`, at least 1}

@@ -60,6 +60,7 @@ struct effort_t {};
 struct target_faces_t {};
 struct single_precision_t {};
 struct stages_t {};
+struct normal_tolerance_t {};
 struct vertex_tolerance_map_t {};
 struct face_tolerance_map_t {};
 struct face_is_constrained_map_t {};
@@ -79,6 +80,7 @@ inline constexpr effort_t effort{};
 inline constexpr target_faces_t target_faces{};
 inline constexpr single_precision_t single_precision{};
 inline constexpr stages_t stages{};
+inline constexpr normal_tolerance_t normal_tolerance{};
 inline constexpr vertex_tolerance_map_t vertex_tolerance_map{};
 inline constexpr face_tolerance_map_t face_tolerance_map{};
 inline constexpr face_is_constrained_map_t face_is_constrained_map{};
@@ -105,6 +107,7 @@ constexpr Placement placement = Placement::on_surface;
 constexpr Effort effort = Effort::standard;
 constexpr std::size_t target_faces = 0;
 constexpr unsigned stages = 1;
+constexpr double normal_tolerance = 180;
 constexpr double relative_slack = 0.01;
 } // namespace defaults
 
@@ -147,6 +150,10 @@ public:
   auto target_faces(std::size_t number) const { return then<internal::target_faces_t>(number); }
   auto single_precision(bool single) const { return then<internal::single_precision_t>(single); }
   auto stages(unsigned number) const { return then<internal::stages_t>(number); }
+  auto normal_tolerance(double degrees) const
+  {
+    return then<internal::normal_tolerance_t>(degrees);
+  }
   template <class Map>
   auto vertex_tolerance_map(const Map& map) const
   {
@@ -323,6 +330,17 @@ inline auto single_precision(bool single)
 inline auto stages(unsigned number)
 {
   return Named_parameters<unsigned, internal::stages_t>(number);
+}
+
+/// \brief Largest angle between the normal of a face and those of the faces of the original that
+/// correspond to it.
+///
+/// In degrees, greater than 0, at most 180, which lets normals turn as they like (`double`).
+/// Default: 180. The map of the direct bound tells which faces correspond; `check_certificate()`
+/// proves the angles that were reached.
+inline auto normal_tolerance(double degrees)
+{
+  return Named_parameters<double, internal::normal_tolerance_t>(degrees);
 }
 
 /// \brief A tolerance at each vertex of the input, where it is less than the one for the whole

@@ -33,8 +33,9 @@ struct Item {
 class Cell_search
 {
 public:
-  /// Faces answers has_vertex(face, vertex), vertices_of(face), face_of(u, v, w) and
-  /// for_each_face_at(vertex, visit) for the mesh after the operation. What cannot be cut is left
+  /// Faces answers has_vertex(face, vertex), vertices_of(face), face_of(u, v, w),
+  /// for_each_face_at(vertex, visit) for the mesh after the operation, and admits(face): whether
+  /// the T triangle may have a cell in it. What cannot be cut is left
   /// in `items`.
   template <class Faces>
   bool triangulates(std::vector<Item>& items, const Faces& faces)
@@ -88,7 +89,8 @@ public:
     if (guide.is_vertex())
       return faces.face_of(a.element.id(), b.element.id(), c.element.id()) != none;
     for (const Index f : guide.face)
-      if (f != none && lies_in(a, f, faces) && lies_in(b, f, faces) && lies_in(c, f, faces))
+      if (f != none && lies_in(a, f, faces) && lies_in(b, f, faces) && lies_in(c, f, faces)
+          && faces.admits(f))
         return true;
     return false;
   }

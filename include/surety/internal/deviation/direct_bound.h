@@ -42,15 +42,21 @@ struct Inner_item {
   double squared_distance;
 };
 
+class After_disc;
+
 class Direct_bound final : public Deviation_policy
 {
 public:
+  /// `normal_cosine` bounds the angle between the normals of a face of M and of a T triangle with a
+  /// cell in it; -1: it does not.
   Direct_bound(
-      const Reference& reference, const Working_mesh& mesh, Tolerance tolerance, Journal& journal)
+      const Reference& reference, const Working_mesh& mesh, Tolerance tolerance, Journal& journal,
+      double normal_cosine = -1)
     : reference_(reference),
       mesh_(mesh),
       tolerance_(std::move(tolerance)),
       journal_(journal),
+      normal_cosine_(normal_cosine),
       map_(
           reference.number_of_vertices(), reference.number_of_edges(), mesh.number_of_edges(),
           mesh.number_of_real_faces(), journal),
@@ -77,6 +83,7 @@ public:
   /// For phi as it was worked out elsewhere.
   Map& map() { return map_; }
   const Tolerance& tolerance() const { return tolerance_; }
+  double normal_cosine() const { return normal_cosine_; }
   /// Checks against a multiple of the tolerance until the next call. What is committed meanwhile
   /// must come to be within the tolerance, or be undone, before a result is made of it.
   void overshoot(double factor) { tolerance_.overshoot(factor); }
@@ -150,6 +157,8 @@ private:
   // Step 3: invariant I3 over the T triangles at those edges.
   bool extends_over_faces();
   bool extends_over(Index face);
+  bool bounds_normals() const { return normal_cosine_ > -1; }
+  After_disc after_disc(Index face) const;
   bool collect_items(Index face);
   void append_nodes(Index e, bool forward);
   Item item_at_vertex(Index v) const;
@@ -214,6 +223,7 @@ private:
   const Working_mesh& mesh_;
   Tolerance tolerance_;
   Journal& journal_;
+  double normal_cosine_;
   Map map_;
 
   // What check() worked out, kept for commit().

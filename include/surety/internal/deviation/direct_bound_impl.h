@@ -11,6 +11,21 @@ class After_disc
 {
 public:
   After_disc(const Working_mesh& mesh, const Disc& disc) : mesh_(mesh), disc_(disc) {}
+  /// For a T triangle with this normal, whose cells may lie in faces that do not turn farther away
+  /// from it.
+  After_disc(const Working_mesh& mesh, const Disc& disc, const Vector& normal, double cosine)
+    : mesh_(mesh), disc_(disc), normal_(normal), cosine_(cosine)
+  {}
+
+  bool admits(Index f) const
+  {
+    if (cosine_ <= -1) return true;
+    const auto corner = vertices_of(f);
+    const Vector a = disc_.point(mesh_, corner[0]);
+    const Vector n
+        = unit((disc_.point(mesh_, corner[1]) - a).cross(disc_.point(mesh_, corner[2]) - a));
+    return n.dot(normal_) >= cosine_;
+  }
 
   std::array<Index, 3> vertices_of(Index f) const
   {
@@ -39,7 +54,7 @@ public:
   {
     Index found = none;
     for_each_face_at(u, [&](Index f) {
-      if (found == none && has_vertex(f, v) && has_vertex(f, w)) found = f;
+      if (found == none && has_vertex(f, v) && has_vertex(f, w) && admits(f)) found = f;
     });
     return found;
   }
@@ -47,6 +62,8 @@ public:
 private:
   const Working_mesh& mesh_;
   const Disc& disc_;
+  Vector normal_ = Vector::Zero();
+  double cosine_ = -1;
 };
 
 inline Verdict Direct_bound::check(const Disc& disc)
@@ -177,12 +194,15 @@ inline void Direct_bound::gather_edges()
 {
   for (const Moved_vertex& moved : vertices_)
     for (const Index e : reference_.edges_at(moved.vertex))
-      if (map_.first_node_of_t(e) != none
+      if (bounds_normals() || map_.first_node_of_t(e) != none
           || !(image(reference_.other_end(e, moved.vertex)) == moved.image))
         gather_edge(e);
   for (const Index spoke : disc_->old_spoke)
     map_.for_each_node_on_m(spoke, [&](Index n) { gather_edge(map_.node(n).t_edge); });
   if (disc_->kind == Disc::Kind::flip) gather_edges_of_flip();
+  // Faces about a pin that stays turn with it, and T triangles at it have cells in them.
+  if (bounds_normals() && disc_->is_closed() && disc_->keeps_pin)
+    for (const Index e : reference_.edges_at(map_.pin(disc_->apex))) gather_edge(e);
 }
 
 // Each face of a flip has two link edges: a T edge may run through a face from one to the other
@@ -402,7 +422,8 @@ inline bool Direct_bound::extends_over_faces()
   return true;
 }
 
-/// Whether there is anything to cut: not so where all corners lie in one face.
+/// Whether there is anything to cut: not so where all corners lie in one face, and every face will
+/// do.
 inline bool Direct_bound::collect_items(Index face)
 {
   const auto& edges = reference_.edges_of_face(face);
@@ -412,13 +433,19 @@ inline bool Direct_bound::collect_items(Index face)
     items_.push_back(item_at_vertex(corners[i]));
     append_nodes(edges[i], reference_.vertices_of_edge(edges[i])[0] == corners[i]);
   }
-  return items_.size() > 3 || !(items_[0].element == items_[1].element)
+  return bounds_normals() || items_.size() > 3 || !(items_[0].element == items_[1].element)
       || !(items_[0].element == items_[2].element);
+}
+
+inline After_disc Direct_bound::after_disc(Index face) const
+{
+  if (!bounds_normals()) return After_disc(mesh_, *disc_);
+  return After_disc(mesh_, *disc_, reference_.normal_of_face(face), normal_cosine_);
 }
 
 inline bool Direct_bound::extends_over(Index face)
 {
-  if (!collect_items(face) || cells_.triangulates(items_, After_disc(mesh_, *disc_))) return true;
+  if (!collect_items(face) || cells_.triangulates(items_, after_disc(face))) return true;
   const auto inner = inner_item(face);
   return inner && inner->squared_distance <= limit_at(*inner);
 }
@@ -426,7 +453,7 @@ inline bool Direct_bound::extends_over(Index face)
 /// The inner item of a triangle whose items triangulates() could not cut.
 inline std::optional<Inner_item> Direct_bound::inner_item(Index face)
 {
-  const Index vertex = Cell_search::winding_vertex(items_, After_disc(mesh_, *disc_));
+  const Index vertex = Cell_search::winding_vertex(items_, after_disc(face));
   if (vertex == none || mesh_.is_ghost_vertex(vertex)) return std::nullopt;
   const auto corner = reference_.sorted_vertices_of_face(face);
   const Vector& a = reference_.point(corner[0]);
@@ -596,9 +623,7 @@ inline double Direct_bound::largest_inner_ratio_of_transaction()
   double largest = 0;
   for (const Index e : touched_edges_)
     for (const Index f : reference_.faces_of_edge(e)) {
-      if (f == none || !collect_items(f)
-          || cells_.triangulates(items_, After_disc(mesh_, no_disc_)))
-        continue;
+      if (f == none || !collect_items(f) || cells_.triangulates(items_, after_disc(f))) continue;
       const auto inner = inner_item(f);
       if (!inner) return std::numeric_limits<double>::infinity();
       largest = std::max(largest, inner->squared_distance / limit_at(*inner));
@@ -611,7 +636,7 @@ inline std::vector<Inner_item> Direct_bound::inner_items()
   forget_disc();
   std::vector<Inner_item> result;
   for (Index f = 0; f < reference_.number_of_faces(); ++f) {
-    if (!collect_items(f) || cells_.triangulates(items_, After_disc(mesh_, no_disc_))) continue;
+    if (!collect_items(f) || cells_.triangulates(items_, after_disc(f))) continue;
     if (const auto inner = inner_item(f)) result.push_back(*inner);
   }
   return result;

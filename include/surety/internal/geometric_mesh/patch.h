@@ -25,6 +25,7 @@ struct Whole {
   const std::vector<bool>& is_fixed;   ///< vertices
   const std::vector<Index>& input_position;
   const Tolerance& tolerance;
+  double normal_cosine;
 };
 
 class Patch
@@ -164,7 +165,8 @@ inline bool Patch::simplify(
       std::move(connectivity_), std::move(points), std::move(is_feature), std::move(is_fixed),
       journal);
   mesh.seal(is_cut_);
-  Direct_bound bound(reference, mesh, whole.tolerance.restricted_to(vertices_), journal);
+  Direct_bound bound(
+      reference, mesh, whole.tolerance.restricted_to(vertices_), journal, whole.normal_cosine);
   plan.overshoots.clear();
   Simplifier simplifier(
       reference, mesh, bound, &bound, controls, plan, Guarding::never, journal,

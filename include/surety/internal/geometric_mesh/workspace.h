@@ -84,6 +84,18 @@ Simplification_plan simplification_plan(const NamedParameters& np, const char* f
   return plan;
 }
 
+/// Of the angle that bounds normals, with a reserve for those who round in another way; -1 where
+/// none does.
+template <class NamedParameters>
+double read_normal_cosine(const NamedParameters& np, const char* function)
+{
+  constexpr double reserve = 1e-6;
+  const double angle = parameter_or(np, normal_tolerance, defaults::normal_tolerance);
+  require_positive(angle, function, "normal_tolerance");
+  require_in_range(angle, 0, 180, function, "normal_tolerance");
+  return angle < 180 ? std::cos(angle * radians_per_degree * (1 - reserve)) : -1;
+}
+
 /// The visitor as a function; absent when the user gave none.
 template <class NamedParameters>
 std::function<bool(const Progress&)> progress_reporter(const NamedParameters& np)
@@ -160,11 +172,16 @@ public:
       face_position_(face_positions(elements_, mesh)),
       tolerance_(scale_ * tolerance),
       varying_tolerance_(varying_tolerance(mesh, elements_, tolerance, np, function)),
-      kind_(parameter_or(np, deviation_bound, defaults::deviation_bound))
+      kind_(parameter_or(np, deviation_bound, defaults::deviation_bound)),
+      normal_cosine_(read_normal_cosine(np, function))
   {
     if (kind_ == Deviation_bound::accumulated && !varying_tolerance_.empty())
       throw Invalid_input(
           function, "tolerance maps", "the accumulated bound knows one tolerance only",
+          "use Deviation_bound::direct");
+    if (kind_ == Deviation_bound::accumulated && normal_cosine_ > -1)
+      throw Invalid_input(
+          function, "normal_tolerance", "the accumulated bound knows no normals",
           "use Deviation_bound::direct");
     using Coordinate
         = std::decay_t<decltype(get(vertex_points(mesh, np), *mesh.vertices().begin()).x())>;
@@ -264,8 +281,13 @@ private:
     for (Index v = 0; v < is_fixed.size(); ++v)
       is_fixed[v] = features_.corner[elements_.vertices[v]];
     const Whole whole{
-        reference_,          connectivity, is_feature_, is_fixed, elements_.input_position,
-        direct_->tolerance()};
+        reference_,
+        connectivity,
+        is_feature_,
+        is_fixed,
+        elements_.input_position,
+        direct_->tolerance(),
+        direct_->normal_cosine()};
     const Index faces = reference_.number_of_faces();
     const Index number = faces / faces_a_patch;
     std::vector<std::optional<Patch>> made(number);
@@ -313,7 +335,7 @@ private:
         reference_, *working_,
         varying_tolerance_.empty() ? Tolerance(rounding, tolerance_)
                                    : Tolerance(rounding, varying_tolerance_),
-        journal_);
+        journal_, normal_cosine_);
     direct_ = bound.get();
     deviation_ = std::move(bound);
   }
@@ -330,6 +352,7 @@ private:
   double tolerance_;
   std::vector<double> varying_tolerance_;
   Deviation_bound kind_;
+  double normal_cosine_;
   bool has_float_points_ = false;
   std::unique_ptr<Deviation_policy> deviation_;
   Direct_bound* direct_ = nullptr;
