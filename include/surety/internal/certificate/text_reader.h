@@ -15,13 +15,18 @@ namespace surety::internal::checker {
 class Line_reader
 {
 public:
-  explicit Line_reader(std::istream& in) : in_(in) {}
+  /// The names of the function that reads, and of the one that wrote, are for the messages.
+  explicit Line_reader(
+      std::istream& in, const char* reader = "read_certificate",
+      const char* writer = "write_certificate")
+    : in_(in), reader_(reader), writer_(writer)
+  {}
 
   [[noreturn]] void fail(const std::string& problem) const
   {
     throw Invalid_input(
-        "read_certificate", "line " + std::to_string(number_), problem,
-        "write the file again with write_certificate");
+        reader_, "line " + std::to_string(number_), problem,
+        std::string("write the file again with ") + writer_);
   }
 
   /// Goes to the next line; the current one must have been used up.
@@ -102,6 +107,7 @@ private:
   }
 
   std::istream& in_;
+  const char *reader_, *writer_;
   char buffer_[256];
   std::string_view rest_;
   std::size_t number_ = 0;
