@@ -16,19 +16,22 @@
 
 namespace surety::internal {
 
-struct Simplification_controls {
-  double shape_ratio, shape_floor;
-  double roughness_cosine;
-  bool allow_self_intersections;
-  bool single_precision; ///< vertices that move go to points whose coordinates are floats
-};
-
 /// An operation that was made: enough to make it again.
 struct Step {
   Disc::Kind kind;
   Index halfedge;
   Vector point; ///< where the apex of a closed fan went
   Index anchor;
+  Index source, target; ///< of the half-edge, before
+  bool is_boundary; ///< whether M complies with the tolerance afterwards: not inside transactions
+};
+
+struct Simplification_controls {
+  double shape_ratio, shape_floor;
+  double roughness_cosine;
+  bool allow_self_intersections;
+  bool single_precision; ///< vertices that move go to points whose coordinates are floats
+  std::vector<Step>* log = nullptr; ///< receives every operation that is not undone
 };
 
 /// Makes an operation that was made before, from the same state.
@@ -63,6 +66,7 @@ public:
     : mesh_(mesh),
       deviation_(deviation),
       journal_(journal),
+      log_(controls.log),
       single_precision_(controls.single_precision),
       changed_at_(mesh.number_of_real_vertices(), 0),
       shape_(controls.shape_ratio, controls.shape_floor),
@@ -99,7 +103,14 @@ public:
   void commit(const Disc& disc)
   {
     deviation_.commit(disc);
-    const Step step{disc.kind, disc.halfedge, disc.apex_point, disc.anchor};
+    const Step step{
+        disc.kind,
+        disc.halfedge,
+        disc.apex_point,
+        disc.anchor,
+        mesh_.source(disc.halfedge),
+        mesh_.target(disc.halfedge),
+        !journal_.is_recording()};
     replay(step, mesh_);
     if (log_ != nullptr) log_->push_back(step);
     count(disc.kind);
@@ -121,9 +132,6 @@ public:
     return true;
   }
 
-  /// Writes every operation that is not undone to a log from now on.
-  void write_to(std::vector<Step>* log) { log_ = log; }
-
   /// Everything from here on can be undone, until keep() or undo().
   void begin()
   {
@@ -137,6 +145,7 @@ public:
   void keep()
   {
     journal_.keep();
+    if (log_ != nullptr && log_->size() > steps_before_) log_->back().is_boundary = true;
     if (guard_) guard_->clean_up();
     ++clock_;
     for (const Index f : touched_faces_)
@@ -206,6 +215,7 @@ private:
   Working_mesh& mesh_;
   Deviation_policy& deviation_;
   Journal& journal_;
+  std::vector<Step>* log_;
   bool single_precision_;
   Index clock_ = 0;
   std::vector<Index> changed_at_;
@@ -213,7 +223,6 @@ private:
   Roughness_control roughness_;
   std::optional<Intersection_guard> guard_;
   Operations operations_, operations_before_;
-  std::vector<Step>* log_ = nullptr;
   std::size_t steps_before_ = 0;
   std::vector<Index> touched_vertices_, touched_faces_, touched_edges_;
 };
