@@ -92,7 +92,7 @@ public:
   Verdict check(Disc& disc)
   {
     if (single_precision_ && disc.is_closed())
-      disc.apex_point = disc.apex_point.cast<float>().cast<double>();
+      for (double& x : disc.apex_point) x = static_cast<float>(x);
     Verdict verdict = check_topology(disc);
     if (verdict == Verdict::accept) verdict = check_geometry(disc);
     if (verdict != Verdict::accept) operations_.refuse(verdict);
