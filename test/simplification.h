@@ -23,9 +23,61 @@
 
 namespace surety::test {
 
+/// Where the vertices of a result lie: what the bound, the placement and the effort promise.
+enum class Vertices { of_input, on_input, anywhere };
+
+template <class NamedParameters>
+Vertices promised_vertices(const NamedParameters& np)
+{
+  using CGAL::parameters::choose_parameter;
+  using CGAL::parameters::get_parameter;
+  namespace defaults = surety::internal::defaults;
+  const auto bound = choose_parameter(
+      get_parameter(np, surety::internal::deviation_bound), defaults::deviation_bound);
+  const auto placement
+      = choose_parameter(get_parameter(np, surety::internal::placement), defaults::placement);
+  const auto effort
+      = choose_parameter(get_parameter(np, surety::internal::effort), defaults::effort);
+  // The accumulated bound has no operation that moves vertices.
+  if (bound == Deviation_bound::accumulated) return Vertices::of_input;
+  if (placement == Placement::free) return Vertices::anywhere;
+  if (effort == Effort::fast) return Vertices::of_input;
+  // Few points of a face have single-precision coordinates.
+  return choose_parameter(get_parameter(np, surety::internal::single_precision), false)
+      ? Vertices::anywhere
+      : Vertices::on_input;
+}
+
+/// The parameters that choose the operations; the rest are controls of quality.
+struct Method {
+  const char* name;
+  Placement placement;
+  Effort effort;
+  Deviation_bound bound = Deviation_bound::direct;
+};
+
+inline void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
+
+inline auto parameters_of(const Method& method)
+{
+  return surety::parameters::deviation_bound(method.bound)
+      .placement(method.placement)
+      .effort(method.effort);
+}
+
+inline const Method on_surface_fast{"on_surface_fast", Placement::on_surface, Effort::fast},
+    on_surface{"on_surface", Placement::on_surface, Effort::standard},
+    on_surface_best{"on_surface_best", Placement::on_surface, Effort::best},
+    free_fast{"free_fast", Placement::free, Effort::fast},
+    free_standard{"free", Placement::free, Effort::standard},
+    free_best{"free_best", Placement::free, Effort::best},
+    accumulated{
+        "accumulated", Placement::on_surface, Effort::standard, Deviation_bound::accumulated};
+
 struct Simplification {
   Mesh input, output;
   Certificate certificate;
+  Vertices vertices = Vertices::on_input;
 };
 
 template <class NamedParameters = CGAL::parameters::Default_named_parameters>
@@ -35,7 +87,7 @@ Simplification simplified(
 {
   Mesh output = input;
   Certificate certificate = make_geometric_mesh(output, tolerance, np);
-  return {input, std::move(output), std::move(certificate)};
+  return {input, std::move(output), std::move(certificate), promised_vertices(np)};
 }
 
 inline double diagonal(const Mesh& mesh)
@@ -45,14 +97,16 @@ inline double diagonal(const Mesh& mesh)
   return std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
 }
 
-/// What rounding may add to a sampled distance.
-inline double sampling_error(const Mesh& mesh)
+inline double largest_coordinate(const Mesh& mesh)
 {
   double largest = 0;
   for (const Vertex v : mesh.vertices())
     for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(mesh.point(v)[i]));
-  return 1e-12 * largest;
+  return largest;
 }
+
+/// What rounding may add to a sampled distance.
+inline double sampling_error(const Mesh& mesh) { return 1e-12 * largest_coordinate(mesh); }
 
 /// The bounds of the faces in iteration order.
 inline std::vector<double> deviations(const Mesh& mesh)
@@ -64,15 +118,31 @@ inline std::vector<double> deviations(const Mesh& mesh)
   return result;
 }
 
+/// Vertices on the input, those of borders at vertices of the input; free ones are a matter of the
+/// distance.
+inline void expect_vertices_in_place(const Simplification& s)
+{
+  if (s.vertices == Vertices::anywhere) return;
+  std::set<Point> points;
+  for (const Vertex v : s.input.vertices()) points.insert(s.input.point(v));
+  const Closest_triangle input(s.input);
+  const double rounding = 1e-14 * std::max(diagonal(s.input), largest_coordinate(s.input));
+  for (const Vertex v : s.output.vertices()) {
+    const Point& p = s.output.point(v);
+    if (points.count(p) == 1) continue;
+    EXPECT_NE(s.vertices, Vertices::of_input) << v << " at " << p << " is no vertex of the input";
+    EXPECT_FALSE(s.output.is_border(v)) << v << " at " << p << " is no vertex of the input";
+    EXPECT_LE(input.distance(p), rounding) << v << " at " << p << " is not on the input";
+  }
+}
+
 inline void expect_sound_mesh(const Simplification& s)
 {
   EXPECT_FALSE(s.output.has_garbage());
   EXPECT_TRUE(is_sound(s.output));
   EXPECT_EQ(topological_type(s.output), topological_type(s.input));
   EXPECT_LE(s.output.number_of_faces(), s.input.number_of_faces());
-  std::set<Point> points;
-  for (const Vertex v : s.input.vertices()) points.insert(s.input.point(v));
-  for (const Vertex v : s.output.vertices()) EXPECT_EQ(points.count(s.output.point(v)), 1u);
+  expect_vertices_in_place(s);
 }
 
 inline void expect_no_new_intersections(const Simplification& s)

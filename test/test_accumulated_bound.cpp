@@ -416,7 +416,7 @@ TEST(Accumulated, leaves_more_faces_than_the_direct_bound_on_a_noisy_surface)
 {
   const Mesh input = jittered(torus(60, 32), 0.01, 1);
   const double tolerance = 0.02;
-  const auto direct = simplified(input, tolerance, with::deviation_bound(Deviation_bound::direct));
+  const auto direct = simplified(input, tolerance, with::effort(surety::Effort::fast));
   const auto accumulated
       = simplified(input, tolerance, with::deviation_bound(Deviation_bound::accumulated));
   EXPECT_GT(accumulated.output.number_of_faces(), direct.output.number_of_faces());
@@ -462,7 +462,8 @@ TEST_P(Real_model, is_sound_and_at_most_four_times_the_direct_count)
     GTEST_SKIP() << "no meshes of libcgal-demo";
   const double tolerance = 0.002 * diagonal(input);
   const auto s = simplified(input, tolerance, with::deviation_bound(Deviation_bound::accumulated));
-  const auto direct = simplified(input, tolerance);
+  // The same operations under the other bound.
+  const auto direct = simplified(input, tolerance, with::effort(surety::Effort::fast));
   EXPECT_GT(s.certificate.operations().flips, 0u);
   EXPECT_LE(s.output.number_of_faces(), 4 * direct.output.number_of_faces());
   RecordProperty(

@@ -24,6 +24,8 @@ using CGAL::parameters::choose_parameter;
 using CGAL::parameters::get_parameter;
 using CGAL::parameters::get_parameter_reference;
 using surety::Deviation_bound;
+using surety::Effort;
+using surety::Placement;
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
@@ -49,6 +51,10 @@ auto full_chain()
       .roughness_angle(60)
       .allow_self_intersections(true)
       .flip_rounds(7)
+      .placement(Placement::free)
+      .effort(Effort::best)
+      .target_faces(1000)
+      .single_precision(true)
       .relative_slack(0.25)
       .maximum_subdivisions(12345)
       .deviation_map(3.5f);
@@ -67,6 +73,11 @@ void expect_full_chain(const Np& np)
   EXPECT_EQ(choose_parameter(get_parameter(np, tag::roughness_angle), 45.0), 60);
   EXPECT_TRUE(choose_parameter(get_parameter(np, tag::allow_self_intersections), false));
   EXPECT_EQ(choose_parameter(get_parameter(np, tag::flip_rounds), 3u), 7u);
+  EXPECT_EQ(
+      choose_parameter(get_parameter(np, tag::placement), Placement::on_surface), Placement::free);
+  EXPECT_EQ(choose_parameter(get_parameter(np, tag::effort), Effort::fast), Effort::best);
+  EXPECT_EQ(choose_parameter(get_parameter(np, tag::target_faces), std::size_t(0)), 1000u);
+  EXPECT_TRUE(choose_parameter(get_parameter(np, tag::single_precision), false));
   EXPECT_EQ(choose_parameter(get_parameter(np, tag::relative_slack), 0.01), 0.25);
   EXPECT_EQ(choose_parameter(get_parameter(np, tag::maximum_subdivisions), std::size_t(1)), 12345u);
   EXPECT_EQ(get_parameter(np, tag::deviation_map), 3.5f);
@@ -86,6 +97,10 @@ TEST(Parameters, each_can_start_a_chain)
   EXPECT_EQ(get_parameter(p::roughness_angle(60), tag::roughness_angle), 60);
   EXPECT_TRUE(get_parameter(p::allow_self_intersections(true), tag::allow_self_intersections));
   EXPECT_EQ(get_parameter(p::flip_rounds(7), tag::flip_rounds), 7u);
+  EXPECT_EQ(get_parameter(p::placement(Placement::free), tag::placement), Placement::free);
+  EXPECT_EQ(get_parameter(p::effort(Effort::best), tag::effort), Effort::best);
+  EXPECT_EQ(get_parameter(p::target_faces(1000), tag::target_faces), 1000u);
+  EXPECT_TRUE(get_parameter(p::single_precision(true), tag::single_precision));
   EXPECT_EQ(get_parameter(p::relative_slack(0.25), tag::relative_slack), 0.25);
   EXPECT_EQ(get_parameter(p::maximum_subdivisions(9), tag::maximum_subdivisions), 9u);
   EXPECT_EQ(get_parameter(p::deviation_map(3.5f), tag::deviation_map), 3.5f);
