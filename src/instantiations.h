@@ -16,12 +16,16 @@
 #include <surety/parameters.h>
 #include <surety/statistics.h>
 
+#include <cstddef>
 #include <utility>
 
 namespace surety::tool {
 
 /// The controls of `make_geometric_mesh`, with the library's defaults.
 struct Controls {
+  Placement placement = internal::defaults::placement;
+  Effort effort = internal::defaults::effort;
+  std::size_t target_faces = internal::defaults::target_faces;
   Deviation_bound deviation_bound = internal::defaults::deviation_bound;
   double feature_angle = internal::defaults::feature_angle;
   double corner_angle = internal::defaults::corner_angle;
@@ -30,11 +34,15 @@ struct Controls {
   double shape_floor = internal::defaults::shape_floor;
   unsigned flip_rounds = internal::defaults::flip_rounds;
   bool allow_self_intersections = internal::defaults::allow_self_intersections;
+  bool single_precision = false;
 };
 
 inline auto simplify_parameters(const Controls& controls, const Visitor& visitor)
 {
-  return parameters::deviation_bound(controls.deviation_bound)
+  return parameters::placement(controls.placement)
+      .effort(controls.effort)
+      .target_faces(controls.target_faces)
+      .deviation_bound(controls.deviation_bound)
       .feature_angle(controls.feature_angle)
       .corner_angle(controls.corner_angle)
       .roughness_angle(controls.roughness_angle)
@@ -42,6 +50,7 @@ inline auto simplify_parameters(const Controls& controls, const Visitor& visitor
       .shape_floor(controls.shape_floor)
       .flip_rounds(controls.flip_rounds)
       .allow_self_intersections(controls.allow_self_intersections)
+      .single_precision(controls.single_precision)
       .visitor(visitor);
 }
 

@@ -15,6 +15,9 @@ namespace surety::tool {
 /// Whether a mesh can be written with this extension.
 bool is_writable(const std::string& extension);
 
+/// Whether every coordinate is a single-precision number: such meshes go to binary STL.
+bool has_float_coordinates(const Mesh& mesh);
+
 /// How far each face may lie from the input, and the most that was allowed.
 struct Deviation {
   Mesh::Property_map<Mesh::Face_index, double> bound;

@@ -44,7 +44,10 @@ Json to_json(const Operations& operations)
     if (verdict != Verdict::accept) refused[to_string(verdict)] = operations.refused[i];
   }
   return {
-      {"performed", {{"collapse", operations.collapses}, {"flip", operations.flips}}},
+      {"performed",
+       {{"collapse", operations.collapses},
+        {"flip", operations.flips},
+        {"relocation", operations.relocations}}},
       {"refused", refused}};
 }
 

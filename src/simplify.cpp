@@ -12,6 +12,7 @@
 #include "report.h"
 #include "soup_reading.h"
 
+#include <algorithm>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -21,17 +22,66 @@ namespace surety::tool {
 namespace {
 
 struct Arguments {
-  std::string input, output, tolerance, certificate, report, placement = "on-surface";
+  std::string input, output, tolerance, certificate, report;
   Reading reading;
   Controls controls;
   bool is_quiet = false, skips_verification = false;
 };
+
+using Placements = std::map<std::string, Placement>;
+using Efforts = std::map<std::string, Effort>;
+using Bounds = std::map<std::string, Deviation_bound>;
+
+const Placements& placements()
+{
+  static const Placements names
+      = {{"on-surface", Placement::on_surface}, {"free", Placement::free}};
+  return names;
+}
+
+const Efforts& efforts()
+{
+  static const Efforts names
+      = {{"fast", Effort::fast}, {"default", Effort::standard}, {"best", Effort::best}};
+  return names;
+}
+
+const Bounds& bounds()
+{
+  static const Bounds names
+      = {{"direct", Deviation_bound::direct}, {"accumulated", Deviation_bound::accumulated}};
+  return names;
+}
+
+template <class Value>
+std::string name_of(Value value, const std::map<std::string, Value>& names)
+{
+  const auto found = std::find_if(
+      names.begin(), names.end(), [&](const auto& named) { return named.second == value; });
+  return found->first;
+}
 
 /// What the two independent checks say.
 struct Verification {
   std::optional<Certificate_check> certificate;
   std::optional<Distance_certificate> distance;
 };
+
+Json describe(const Controls& controls)
+{
+  return {
+      {"placement", name_of(controls.placement, placements())},
+      {"effort", name_of(controls.effort, efforts())},
+      {"target_faces", controls.target_faces},
+      {"bound", name_of(controls.deviation_bound, bounds())},
+      {"feature_angle", controls.feature_angle},
+      {"corner_angle", controls.corner_angle},
+      {"roughness_angle", controls.roughness_angle},
+      {"shape_ratio", controls.shape_ratio},
+      {"shape_floor", controls.shape_floor},
+      {"flip_rounds", controls.flip_rounds},
+      {"allow_self_intersections", controls.allow_self_intersections}};
+}
 
 class Simplify
 {
@@ -43,6 +93,7 @@ public:
   {
     const Length length = Length::parse(arguments_.tolerance, "--tolerance");
     announce_outputs();
+    require_compatible_controls();
     watch_for_interruption();
     read();
     tolerance_ = length.in_units(diagonal(input_));
@@ -54,6 +105,7 @@ public:
 
 private:
   void announce_outputs();
+  void require_compatible_controls() const;
   void read();
   void simplify();
   void verify();
@@ -107,6 +159,17 @@ void Simplify::announce_outputs()
   files_.announce(arguments_.certificate);
 }
 
+void Simplify::require_compatible_controls() const
+{
+  const Controls& controls = arguments_.controls;
+  if (controls.placement == Placement::free
+      && controls.deviation_bound == Deviation_bound::accumulated)
+    throw Failure(
+        usage,
+        "--placement: the accumulated bound has no operation that places vertices freely; leave "
+        "one of the two options out");
+}
+
 void Simplify::read()
 {
   input_ = read_mesh(arguments_.input, arguments_.reading);
@@ -123,9 +186,13 @@ void Simplify::simplify()
 {
   Progress_bar bar(arguments_.is_quiet);
   output_ = input_;
+  Controls controls = arguments_.controls;
+  // So that STL, which is binary for such coordinates only, stays binary and small.
+  controls.single_precision
+      = extension_of(arguments_.output) == "stl" && has_float_coordinates(input_);
   try {
-    certificate_ = make_geometric_mesh(
-        output_, tolerance_, simplify_parameters(arguments_.controls, Visitor(bar)));
+    certificate_
+        = make_geometric_mesh(output_, tolerance_, simplify_parameters(controls, Visitor(bar)));
   } catch (const Invalid_input& error) {
     if (error.argument() == "mesh")
       throw Bad_file(arguments_.input, error.problem(), error.remedy());
@@ -205,8 +272,7 @@ Json Simplify::report() const
   certificate["tolerance"] = tolerance_;
   certificate["bound"] = certificate_->bound();
   certificate["holds"] = certificate_->holds();
-  const bool is_direct = arguments_.controls.deviation_bound == Deviation_bound::direct;
-  certificate["policy"] = is_direct ? "direct" : "accumulated";
+  certificate["policy"] = name_of(arguments_.controls.deviation_bound, bounds());
   if (verification_.certificate) {
     certificate["certificate_check"] = {
         {"bound", verification_.certificate->bound}, {"holds", verification_.certificate->holds}};
@@ -217,6 +283,7 @@ Json Simplify::report() const
            {"holds", verification_.distance->holds()}};
   }
   json["seconds"] = watch_.seconds();
+  json["parameters"] = describe(arguments_.controls);
   json["operations"] = to_json(certificate_->operations());
   return json;
 }
@@ -244,10 +311,27 @@ void Simplify::print() const
 void add_controls(CLI::App& command, Controls& controls)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const std::map<std::string, Deviation_bound> bounds
-      = {{"direct", Deviation_bound::direct}, {"accumulated", Deviation_bound::accumulated}};
+  command
+      .add_option(
+          "--placement", controls.placement,
+          "where vertices may go; free: anywhere within the tolerance, which takes fewer faces")
+      ->transform(CLI::CheckedTransformer(placements()).description("on-surface|free"))
+      ->default_str("on-surface");
+  command
+      .add_option(
+          "--effort", controls.effort,
+          "how much work to spend on having few faces; fast: less than a third of the time")
+      ->transform(CLI::CheckedTransformer(efforts()).description("fast|default|best"))
+      ->default_str("default");
+  command
+      .add_option(
+          "--target-faces", controls.target_faces,
+          "stop at this number of faces, with the smallest bound on the way; 0: as few as the "
+          "tolerance allows")
+      ->check(between(0, 4e9))
+      ->capture_default_str();
   command.add_option("--bound", controls.deviation_bound, "how the distance is bounded")
-      ->transform(CLI::CheckedTransformer(bounds).description("direct|accumulated"))
+      ->transform(CLI::CheckedTransformer(bounds()).description("direct|accumulated"))
       ->default_str("direct");
   command
       .add_option(
@@ -305,9 +389,6 @@ void add_simplify(CLI::App& program, Exit_status&)
           "largest distance between the two, either way: a length (0.5) or a per cent of the "
           "bounding-box diagonal (0.1%)")
       ->required();
-  command->add_option("--placement", arguments->placement, "where vertices may go")
-      ->check(CLI::IsMember({"on-surface"}))
-      ->capture_default_str();
   add_controls(*command, arguments->controls);
   command->add_flag(
       "--triangulate", arguments->reading.triangulate, "split faces with more than three corners");

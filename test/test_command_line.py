@@ -366,10 +366,63 @@ class Controls(Case):
             "simplify", "in.off", "-o", "out.off", "-t", "3%", "--allow-self-intersections")
         self.assertEqual(admitted["operations"]["refused"]["self_intersection"], 0)
 
-    def test_placement_on_surface_keeps_vertices_of_the_input(self):
-        self.faces(torus(), "-t", "2%", "--placement", "on-surface")
+    def test_effort_fast_keeps_vertices_of_the_input(self):
+        self.faces(torus(), "-t", "2%", "--effort", "fast", "--placement", "on-surface")
         points, _ = read_off(self.folder / "out.off")
         self.assertLessEqual(set(points), set(torus()[0]))
+
+    def test_placement_free_leaves_fewer_faces(self):
+        for effort in ("fast", "default"):
+            with self.subTest(effort):
+                on_surface = self.faces(torus(), "-t", "2%", "--effort", effort)
+                same = self.faces(torus(), "-t", "2%", "--effort", effort,
+                                  "--placement", "on-surface")
+                free = self.faces(torus(), "-t", "2%", "--effort", effort, "--placement", "free")
+                self.assertEqual(on_surface, same)
+                self.assertLess(free, on_surface)
+
+    def test_effort_leaves_fewer_faces(self):
+        self.write("in.off", off_text(torus()))
+        for placement in ("on-surface", "free"):
+            reports = [
+                self.report("simplify", "in.off", "-o", "out.off", "-t", "2%", "--effort", effort,
+                            "--placement", placement)
+                for effort in ("fast", "default", "best")]
+            fast, default, best = (report["output"]["faces"] for report in reports)
+            self.assertLess(default, fast)
+            self.assertLessEqual(best, default)
+            relocations = [report["operations"]["performed"]["relocation"] for report in reports]
+            self.assertEqual(relocations[0], 0)
+            self.assertGreater(relocations[1], 0)
+            self.assertGreater(relocations[2], relocations[1])
+
+    def test_target_faces_is_where_it_stops(self):
+        self.write("in.off", off_text(torus()))
+        fewest = self.report("simplify", "in.off", "-o", "out.off", "-t", "2%")
+        report = self.report("simplify", "in.off", "-o", "out.off", "-t", "2%",
+                             "--target-faces", "400")
+        self.assertLess(fewest["output"]["faces"], 300)
+        self.assertIn(report["output"]["faces"], (399, 400))
+        self.assertLess(report["certificate"]["bound"], fewest["certificate"]["bound"])
+        self.assertEqual(report["parameters"]["target_faces"], 400)
+
+    def test_report_tells_the_parameters(self):
+        self.write("in.off", off_text(torus()))
+        defaults = self.report("simplify", "in.off", "-o", "out.off", "-t", "2%")["parameters"]
+        self.assertEqual(defaults["placement"], "on-surface")
+        self.assertEqual(defaults["effort"], "default")
+        self.assertEqual(defaults["bound"], "direct")
+        self.assertEqual(defaults["target_faces"], 0)
+        chosen = self.report("simplify", "in.off", "-o", "out.off", "-t", "2%", "--placement",
+                             "free", "--effort", "fast", "--shape-floor", "20")["parameters"]
+        self.assertEqual(chosen["placement"], "free")
+        self.assertEqual(chosen["effort"], "fast")
+        self.assertEqual(chosen["shape_floor"], 20)
+
+    def test_accumulated_bound_does_not_place_freely(self):
+        self.write("in.off", off_text(torus()))
+        self.refuse(USAGE, "--placement: the accumulated bound", "simplify", "in.off", "-o",
+                    "out.off", "-t", "2%", "--bound", "accumulated", "--placement", "free")
 
     def test_triangulate_splits_polygons(self):
         self.write("in.off", off_text(cube()))
@@ -422,6 +475,43 @@ class Formats(Case):
         self.write("in.off", off_text(torus()))
         self.succeed("simplify", "in.off", "-o", "out.stl", "-t", "1%")
         self.assertEqual((self.folder / "out.stl").read_bytes()[:5], b"solid")
+
+    def test_stl_of_moved_vertices_is_certified_as_it_is_stored(self):
+        mesh = single_precision(torus())
+        self.write("in.off", off_text(mesh))
+        self.write("in.stl", stl_bytes(mesh))
+        for name in ("in.off", "in.stl"):
+            for placement in ("on-surface", "free"):
+                with self.subTest(name=name, placement=placement):
+                    report = self.report(
+                        "simplify", name, "-o", "out.stl", "-t", "1%", "--placement", placement)
+                    self.assertGreater(report["operations"]["performed"]["relocation"], 0)
+                    data = (self.folder / "out.stl").read_bytes()
+                    faces = report["output"]["faces"]
+                    self.assertEqual(len(data), 84 + 50 * faces, "not binary STL")
+                    tolerance = report["certificate"]["tolerance"]
+                    self.succeed("compare", name, "out.stl", "-t", repr(tolerance))
+                    # Nothing was rounded when it was written.
+                    self.succeed("simplify", "out.stl", "-o", "back.off", "-t", "1e-9%")
+                    points, _ = read_off(self.folder / "back.off")
+                    self.assertEqual(set(points), set(single_precision((points, []))[0]))
+        # In double precision it goes to text, and certificates to formats that number vertices.
+        self.write("in.off", off_text(torus()))
+        report = self.report("simplify", "in.off", "-o", "out.stl", "-t", "1%")
+        self.assertEqual((self.folder / "out.stl").read_bytes()[:5], b"solid")
+        self.succeed("compare", "in.off", "out.stl", "-t", repr(report["certificate"]["tolerance"]))
+
+    def test_every_method_is_verified_in_every_format_that_keeps_numbers(self):
+        for name, mesh in {"single.off": single_precision(torus()), "double.off": torus()}.items():
+            self.write(name, off_text(mesh))
+            for kind in ("off", "obj", "ply"):
+                for placement, effort in (("on-surface", "fast"), ("on-surface", "default"),
+                                          ("free", "fast"), ("free", "default")):
+                    with self.subTest(name=name, kind=kind, placement=placement, effort=effort):
+                        self.succeed("simplify", name, "-o", f"out.{kind}", "-t", "1%",
+                                     "--placement", placement, "--effort", effort,
+                                     "--certificate", "out.cert")
+                        self.succeed("verify", name, f"out.{kind}", "out.cert")
 
     def test_ply_and_vtp_carry_the_deviation(self):
         self.write("in.off", off_text(torus()))
@@ -675,7 +765,7 @@ class Hostile_parameters(Case):
         self.refuse(USAGE, "tolerance", "simplify", "in.off", "-o", "out.off")
         self.simplify("nonsense", "-o", "out.off", "-t", "1%", "--nonsense")
         self.simplify("extra.off", "extra.off", "-o", "out.off", "-t", "1%")
-        self.simplify("placement", "-o", "out.off", "-t", "1%", "--placement", "free")
+        self.simplify("placement", "-o", "out.off", "-t", "1%", "--placement", "anywhere")
         self.simplify("bound", "-o", "out.off", "-t", "1%", "--bound", "none")
 
     def test_controls_out_of_range(self):
@@ -686,6 +776,8 @@ class Hostile_parameters(Case):
             "--shape-ratio": ("0", "0.5", "-1", "nan"),
             "--shape-floor": ("0", "0.5", "-1", "nan"),
             "--flip-rounds": ("-1", "1.5", "nan", "99999999999"),
+            "--target-faces": ("-1", "1.5", "nan", "inf", "99999999999", "many"),
+            "--effort": ("", "standard", "fastest", "1.5"),
         }.items():
             for value in values:
                 with self.subTest(flag=flag, value=value):
