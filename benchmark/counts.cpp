@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How few faces? Simplifies models with the library and with its peers and prints, for each result,
-// the number of faces, the CPU time, what is certified and what the distance really is. Peers that
-// know no tolerance are given the number of faces that ours reached.
+// How few faces? Simplifies models with the library, by each placement and effort, and with its
+// peers and prints, for each result, the number of faces, the CPU time, what is certified and what
+// the distance really is. Peers that know no tolerance are given the number of faces that our
+// defaults reached.
 #include "child.h"
 #include "distances.h"
 #include "models.h"
@@ -21,6 +22,19 @@ namespace {
 
 using namespace surety::benchmark;
 
+const char* name_of(surety::Effort effort)
+{
+  switch (effort) {
+  case surety::Effort::fast:
+    return "fast";
+  case surety::Effort::standard:
+    return "default";
+  case surety::Effort::best:
+    return "best";
+  }
+  return "";
+}
+
 struct Settings {
   std::vector<std::string> models
       = {"fandisk",  "anchor_dense", "couplingdown", "rotor_small",     "turbine",
@@ -29,9 +43,10 @@ struct Settings {
   Controls controls;
   unsigned cpu_limit = 600;
   bool skip_slow = false;
+  bool with_best = false;
 };
 
-/// One model at one tolerance; the methods are compared with the first, our direct bound.
+/// One model at one tolerance; the methods are compared with the first, our defaults.
 class Comparison
 {
 public:
@@ -46,21 +61,36 @@ public:
 
   void run()
   {
-    run_ours("surety_direct", surety::Deviation_bound::direct);
-    run_ours("surety_accumulated", surety::Deviation_bound::accumulated);
+    using surety::Deviation_bound;
+    using surety::Effort;
+    using surety::Placement;
+    run_ours("surety", Placement::on_surface, Effort::standard);
+    run_ours("surety_fast", Placement::on_surface, Effort::fast);
+    if (settings_.with_best) run_ours("surety_best", Placement::on_surface, Effort::best);
+    run_ours("surety_free", Placement::free, Effort::standard);
+    run_ours("surety_free_fast", Placement::free, Effort::fast);
+    if (settings_.with_best) run_ours("surety_free_best", Placement::free, Effort::best);
+    run_ours(
+        "surety_accumulated", Placement::on_surface, Effort::fast, Deviation_bound::accumulated);
     for (const Peer& peer : all_peers()) {
       if (!(settings_.skip_slow && peer.is_slow)) run_peer(peer);
     }
   }
 
 private:
-  void run_ours(const std::string& method, surety::Deviation_bound bound)
+  void run_ours(
+      const std::string& method, surety::Placement placement, surety::Effort effort,
+      surety::Deviation_bound bound = surety::Deviation_bound::direct)
   {
     Controls controls = settings_.controls;
+    controls.placement = placement;
+    controls.effort = effort;
     controls.bound = bound;
     run_method(method, [&](Mesh& mesh, const Report& report) {
       const Stopwatch stopwatch;
       const auto certificate = simplify(mesh, tolerance_, controls);
+      report.set("placement", placement == surety::Placement::free ? "free" : "on-surface");
+      report.set("effort", name_of(effort));
       report.set("seconds", stopwatch.seconds());
       report.set("certified_over_tolerance", certificate.bound() / tolerance_);
     });
@@ -128,14 +158,15 @@ int run(int argc, char* argv[])
   const Models models(program);
   add_models(program, settings.models);
   add_tolerances(program, settings.tolerances);
-  add_options(program, settings.controls);
+  add_quality_options(program, settings.controls);
   add_cpu_limit(program, settings.cpu_limit);
+  program.add_flag("--best", settings.with_best, "Run ours with the best effort too: minutes");
   program.add_flag("--skip-slow", settings.skip_slow, "Leave out the peers that may take a minute");
   parse_or_exit(program, argc, argv);
 
   const Table table(
-      {"model", "input_faces", "tolerance_per_cent", "method", "faces", "our_faces_over_its",
-       "seconds", "our_seconds_over_its", "certified_over_tolerance",
+      {"model", "input_faces", "tolerance_per_cent", "method", "placement", "effort", "faces",
+       "our_faces_over_its", "seconds", "our_seconds_over_its", "certified_over_tolerance",
        "distance_lower_over_tolerance", "distance_upper_over_tolerance", "within_tolerance",
        "message"});
   for (const auto& model : settings.models) {

@@ -14,12 +14,17 @@
 namespace surety::benchmark {
 
 struct Controls {
+  Placement placement = surety::internal::defaults::placement;
+  Effort effort = surety::internal::defaults::effort;
   double feature_angle = surety::internal::defaults::feature_angle;
   Deviation_bound bound = surety::internal::defaults::deviation_bound;
   bool allow_self_intersections = surety::internal::defaults::allow_self_intersections;
 };
 
 /// Adds --feature-angle and --allow-self-intersections.
+void add_quality_options(CLI::App& program, Controls& controls);
+
+/// Adds these, --placement and --effort.
 void add_options(CLI::App& program, Controls& controls);
 
 Certificate simplify(Mesh& mesh, double tolerance, const Controls& controls);
