@@ -21,6 +21,8 @@ struct Simplification_plan {
   /// Shares of the tolerance, one stage each, growing up to 1 (the loop of section 2.3 of the
   /// paper).
   std::vector<double> stages{1.0};
+  /// Whether edges are flipped in all stages, or in the last one only.
+  bool flips_in_all_stages = true;
   /// Whether the stages are to be found out, so that the goal is met at a small tolerance.
   bool seeks_goal = false;
   /// Called after each stage; false ends the work.
@@ -98,14 +100,15 @@ private:
   bool run_stage(double share, bool with_transactions)
   {
     deviation_.set_stage(share);
-    return run_collapses() && (!with_transactions || run_transactions());
+    return run_collapses(share >= 1 || plan_.flips_in_all_stages)
+        && (!with_transactions || run_transactions());
   }
 
-  bool run_collapses()
+  bool run_collapses(bool with_flips)
   {
     greedy_.start();
     if (!collapse() || !is_guarded()) return false;
-    for (unsigned round = 0; round < plan_.flip_rounds && !is_done(); ++round) {
+    for (unsigned round = 0; with_flips && round < plan_.flip_rounds && !is_done(); ++round) {
       const std::size_t flips = editor_.operations().flips;
       if (!sweep(false)) return false;
       if (editor_.operations().flips == flips) break;

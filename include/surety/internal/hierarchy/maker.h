@@ -81,6 +81,8 @@ public:
     if (is_absent<NamedParameters, effort_t>) plan_.overshoots.clear();
     plan_.stages = level_shares(tolerances, steps_);
     plan_.seeks_goal = false;
+    // Before the last stage they cost as much as the collapses and save one face in a hundred.
+    plan_.flips_in_all_stages = false;
     plan_.log = &log_;
     plan_.on_stage = [this](std::size_t stage) {
       if ((stage + 1) % steps_ == 0) add_level(false);
@@ -94,7 +96,8 @@ public:
   {
     bool is_complete;
     controls.log = &log_;
-    std::tie(operations_, is_complete) = work_.simplify(controls, plan_, visitor);
+    std::tie(operations_, is_complete)
+        = work_.template simplify<CGAL::Sequential_tag>(controls, plan_, visitor);
     // The visitor, or the number of faces, may have ended the work inside a level.
     if (!is_complete || levels_.empty() || record_.levels.back().operations < log_.size())
       add_level(!is_complete);
