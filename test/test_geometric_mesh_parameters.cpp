@@ -309,7 +309,7 @@ TEST(Placement_parameter, on_surface_by_default_and_free_leaves_fewer_faces)
 
 TEST(Effort_parameter, more_of_it_leaves_fewer_faces)
 {
-  for (const Mesh& input : {wavy_sheet(14), jittered_sphere(2, 1)}) {
+  for (const Mesh& input : {wavy_sheet(14), jittered_sphere(3, 1)}) {
     for (const Placement placement : {Placement::on_surface, Placement::free}) {
       const auto np = with::placement(placement);
       const Simplification fast = simplified(input, 0.01, np.effort(Effort::fast)),
@@ -423,7 +423,7 @@ bool has_float_coordinates(const Mesh& mesh)
 TEST(Single_precision, is_that_of_every_vertex)
 {
   for (const Mesh& shape :
-       {wavy_sheet(14), translated(icosphere(2), Vector(300, 0, 0)), scaled(torus(20, 10), 1e-6),
+       {wavy_sheet(14), translated(icosphere(3), Vector(300, 0, 0)), scaled(torus(20, 10), 1e-6),
         scaled(wavy_sheet(10), 0x1p100)}) {
     const Mesh input = rounded_to_floats(shape);
     const double tolerance = 0.005 * diagonal(input);
