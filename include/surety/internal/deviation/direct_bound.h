@@ -83,7 +83,6 @@ public:
   /// For phi as it was worked out elsewhere.
   Map& map() { return map_; }
   const Tolerance& tolerance() const { return tolerance_; }
-  double normal_cosine() const { return normal_cosine_; }
   /// Checks against a multiple of the tolerance until the next call. What is committed meanwhile
   /// must come to be within the tolerance, or be undone, before a result is made of it.
   void overshoot(double factor) { tolerance_.overshoot(factor); }

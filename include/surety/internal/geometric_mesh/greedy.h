@@ -34,7 +34,7 @@ public:
       origin_(origin),
       bound_(free_bound),
       queue_(reference.number_of_vertices()),
-      quadric_(reference.number_of_vertices()),
+      slot_(reference.number_of_vertices(), none),
       best_(reference.number_of_vertices(), none),
       refused_(2 * std::size_t(reference.number_of_edges()), false)
   {
@@ -63,8 +63,8 @@ public:
   }
 
   /// What a vertex stands for, to be handed over from one to another of the same origin.
-  const Quadric& quadric(Index v) const { return quadric_[v]; }
-  void set_quadric(Index v, const Quadric& quadric) { quadric_[v] = quadric; }
+  const Quadric& quadric(Index v) const { return quadrics_[slot_[v]]; }
+  void set_quadric(Index v, const Quadric& quadric) { quadrics_[slot_[v]] = quadric; }
 
   /// To be called for what others do to M: vertices of a disc that has changed, and P -> Q.
   void retry_around(const Disc& disc)
@@ -75,7 +75,7 @@ public:
   void retry_around(Index v);
   void merge(Index p, Index q)
   {
-    quadric_[q] += quadric_[p];
+    quadrics_[slot_[q]] += quadric(p);
     queue_.remove(p);
   }
 
@@ -85,7 +85,7 @@ public:
   Vector best_place(Index p, Index q) const
   {
     const Vector middle = (mesh_.point(p) + mesh_.point(q)) / 2 - origin();
-    return origin() + (quadric_[p] + quadric_[q]).minimum_near(middle);
+    return origin() + (quadric(p) + quadric(q)).minimum_near(middle);
   }
 
 private:
@@ -112,20 +112,28 @@ private:
   const Direct_bound* bound_; ///< with free placement
 
   Vertex_queue queue_;
-  std::vector<Quadric> quadric_; ///< relative to the origin
-  std::vector<Index> best_;      ///< the cheapest half-edge out of a queued vertex
-  std::vector<bool> refused_;    ///< a half-edge refused since its source's star last changed
+  std::vector<Index> slot_;       ///< of the quadric of a vertex that is there at first
+  std::vector<Quadric> quadrics_; ///< relative to the origin
+  std::vector<Index> best_;       ///< the cheapest half-edge out of a queued vertex
+  std::vector<bool> refused_;     ///< a half-edge refused since its source's star last changed
   Disc disc_;
 };
 
 // Planes count alike whatever the size of their face: where T is fine it is fine for a reason.
 inline void Greedy::initialise_quadrics()
 {
+  Index live = 0;
+  for (Index v = 0; v < slot_.size(); ++v)
+    if (mesh_.is_live_vertex(v)) slot_[v] = live++;
+  quadrics_.resize(live);
+  const auto add = [&](Index v, const Quadric& q) {
+    if (slot_[v] != none) quadrics_[slot_[v]] += q;
+  };
   const auto point = [&](Index v) -> const Vector& { return reference_.point(v); };
   for (Index f = 0; f < reference_.number_of_faces(); ++f) {
     const auto v = reference_.vertices_of_face(f);
     const Quadric q = Quadric::of_plane(point(v[0]) - origin(), reference_.normal_of_face(f), 1);
-    for (const Index corner : v) quadric_[corner] += q;
+    for (const Index corner : v) add(corner, q);
   }
   // Feature edges resist by a plane through them, perpendicular to their face.
   for (Index e = 0; e < reference_.number_of_edges(); ++e) {
@@ -135,8 +143,8 @@ inline void Greedy::initialise_quadrics()
       if (f == none) continue;
       const Vector side = unit((point(t) - point(s)).cross(reference_.normal_of_face(f)));
       const Quadric q = Quadric::of_plane(point(s) - origin(), side, 1);
-      quadric_[s] += q;
-      quadric_[t] += q;
+      add(s, q);
+      add(t, q);
     }
   }
 }
@@ -151,7 +159,7 @@ inline double Greedy::cost(Index h) const
   const double length = (mesh_.point(p) - mesh_.point(q)).norm();
   const Vector x = (can_be_placed(h) && !mesh_.is_on_feature(p) ? best_place(p, q) : mesh_.point(q))
       - origin();
-  return (quadric_[p](x) + quadric_[q](x)) / length + flat_ground * length;
+  return (quadric(p)(x) + quadric(q)(x)) / length + flat_ground * length;
 }
 
 /// Queues p with its cheapest half-edge that has not been refused.
@@ -220,7 +228,7 @@ inline void Greedy::try_collapse(Index p)
     schedule(p);
     return;
   }
-  quadric_[q] += quadric_[p];
+  quadrics_[slot_[q]] += quadric(p);
   retry_around(disc_);
 }
 

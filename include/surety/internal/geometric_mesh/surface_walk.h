@@ -13,8 +13,10 @@ namespace surety::internal {
 
 struct Foot {
   Index face = none;
-  Vector point;  ///< in the face up to rounding
-  Index nearest; ///< the corner of the face with the largest weight
+  Vector point;           ///< in the face up to rounding
+  Index nearest;          ///< the corner of the face with the largest weight
+  bool is_inside = false; ///< neither on an edge nor at a vertex of the face
+  Index opposite = none;  ///< of a point on an edge: the corner that has no weight
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
@@ -26,16 +28,20 @@ public:
   Foot closest(const Vector& p, Index start) const
   {
     Foot best = foot_on(p, start);
-    for (bool closer = true; closer;) {
+    for (bool closer = true; closer && !best.is_inside;) {
       closer = false;
       const Index from = best.face;
-      for (const Index v : reference_.vertices_of_face(from))
+      for (const Index v : reference_.vertices_of_face(from)) {
+        // Past an edge or a vertex: the faces at the vertices that bear the closest point.
+        if (v == best.opposite) continue;
         for (const Index e : reference_.edges_at(v))
           for (const Index f : reference_.faces_of_edge(e)) {
             if (f == none || f == from || f == best.face) continue;
             const Foot foot = foot_on(p, f);
             if (foot.squared_distance < best.squared_distance) best = foot, closer = true;
           }
+        if (closer) break;
+      }
     }
     return best;
   }
@@ -62,6 +68,8 @@ private:
                         : Vector(a + v * ab + w * ac);
     const double u = 1 - v - w;
     foot.nearest = u >= v && u >= w ? corner[0] : v >= w ? corner[1] : corner[2];
+    foot.is_inside = u > 0 && v > 0 && w > 0;
+    foot.opposite = u <= 0 ? corner[0] : v == 0 ? corner[1] : w == 0 ? corner[2] : none;
     foot.squared_distance = (p - foot.point).squaredNorm();
     return foot;
   }

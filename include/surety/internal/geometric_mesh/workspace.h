@@ -276,18 +276,15 @@ private:
       std::vector<Patch>& patches, const Simplification_controls& controls,
       const Simplification_plan& plan, const std::function<bool(const Progress&)>& visitor)
   {
+    const Tolerance tolerance = direct_->tolerance();
+    deviation_.reset(); // M and phi are put together anew from the patches
+    working_.reset();
     auto connectivity = read_connectivity(source_, elements_);
     std::vector<bool> is_fixed(elements_.vertices.size());
     for (Index v = 0; v < is_fixed.size(); ++v)
       is_fixed[v] = features_.corner[elements_.vertices[v]];
-    const Whole whole{
-        reference_,
-        connectivity,
-        is_feature_,
-        is_fixed,
-        elements_.input_position,
-        direct_->tolerance(),
-        direct_->normal_cosine()};
+    const Whole whole{reference_, connectivity,  is_feature_, is_fixed, elements_.input_position,
+                      tolerance,  normal_cosine_};
     const Index faces = reference_.number_of_faces();
     const Index number = faces / faces_a_patch;
     std::vector<std::optional<Patch>> made(number);
