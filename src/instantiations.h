@@ -33,11 +33,17 @@ struct Controls {
   double shape_ratio = internal::defaults::shape_ratio;
   double shape_floor = internal::defaults::shape_floor;
   unsigned flip_rounds = internal::defaults::flip_rounds;
+  unsigned stages = internal::defaults::stages;
+  double normal_tolerance = internal::defaults::normal_tolerance;
   bool allow_self_intersections = internal::defaults::allow_self_intersections;
   bool single_precision = false;
 };
 
-inline auto simplify_parameters(const Controls& controls, const Visitor& visitor)
+/// A tolerance at each vertex of the input.
+using Tolerances = Mesh::Property_map<Mesh::Vertex_index, double>;
+
+inline auto simplify_parameters(
+    const Controls& controls, const Tolerances& tolerances, const Visitor& visitor)
 {
   return parameters::placement(controls.placement)
       .effort(controls.effort)
@@ -50,7 +56,10 @@ inline auto simplify_parameters(const Controls& controls, const Visitor& visitor
       .shape_floor(controls.shape_floor)
       .flip_rounds(controls.flip_rounds)
       .allow_self_intersections(controls.allow_self_intersections)
+      .stages(controls.stages)
+      .normal_tolerance(controls.normal_tolerance)
       .single_precision(controls.single_precision)
+      .vertex_tolerance_map(tolerances)
       .visitor(visitor);
 }
 
@@ -59,16 +68,19 @@ inline auto feature_parameters(double feature_angle, double corner_angle)
   return parameters::feature_angle(feature_angle).corner_angle(corner_angle);
 }
 
+/// On all threads where TBB is there; the result is the same.
+using Concurrency = CGAL::Parallel_if_available_tag;
+
 using No_parameters = CGAL::parameters::Default_named_parameters;
-using Simplify_parameters
-    = decltype(simplify_parameters(std::declval<Controls>(), std::declval<Visitor>()));
+using Simplify_parameters = decltype(simplify_parameters(
+    std::declval<Controls>(), std::declval<Tolerances>(), std::declval<Visitor>()));
 using Feature_parameters = decltype(feature_parameters(0, 0));
 
 } // namespace surety::tool
 
 namespace surety {
 
-extern template Certificate make_geometric_mesh(
+extern template Certificate make_geometric_mesh<tool::Concurrency>(
     tool::Mesh&, double, const tool::Simplify_parameters&);
 extern template Certificate_check check_certificate(
     const tool::Mesh&, const tool::Mesh&, const Certificate&, const tool::No_parameters&,

@@ -11,6 +11,8 @@
 #include "output_files.h"
 #include "report.h"
 #include "soup_reading.h"
+#include "threads.h"
+#include "tolerance_field.h"
 
 #include <algorithm>
 #include <iostream>
@@ -22,7 +24,8 @@ namespace surety::tool {
 namespace {
 
 struct Arguments {
-  std::string input, output, tolerance, certificate, report;
+  std::string input, output, tolerance, tolerance_field, certificate, report;
+  unsigned threads = 0;
   Reading reading;
   Controls controls;
   bool is_quiet = false, skips_verification = false;
@@ -80,6 +83,8 @@ Json describe(const Controls& controls)
       {"shape_ratio", controls.shape_ratio},
       {"shape_floor", controls.shape_floor},
       {"flip_rounds", controls.flip_rounds},
+      {"stages", controls.stages},
+      {"normal_tolerance", controls.normal_tolerance},
       {"allow_self_intersections", controls.allow_self_intersections}};
 }
 
@@ -91,7 +96,11 @@ public:
 
   void run()
   {
-    const Length length = Length::parse(arguments_.tolerance, "--tolerance");
+    if (arguments_.tolerance.empty() && arguments_.controls.target_faces == 0)
+      throw Failure(usage, "--tolerance is required unless --target-faces is given");
+    const Length length = Length::parse(
+        arguments_.tolerance.empty() ? "100%" : arguments_.tolerance, "--tolerance");
+    const Thread_limit thread_limit(arguments_.threads);
     announce_outputs();
     require_compatible_controls();
     watch_for_interruption();
@@ -168,6 +177,12 @@ void Simplify::require_compatible_controls() const
         usage,
         "--placement: the accumulated bound has no operation that places vertices freely; leave "
         "one of the two options out");
+  if (controls.deviation_bound == Deviation_bound::accumulated
+      && (controls.normal_tolerance < 180 || !arguments_.tolerance_field.empty()))
+    throw Failure(
+        usage,
+        "--bound: the accumulated bound knows neither normals nor a tolerance that varies; leave "
+        "--normal-tolerance and --tolerance-field out");
 }
 
 void Simplify::read()
@@ -186,13 +201,14 @@ void Simplify::simplify()
 {
   Progress_bar bar(arguments_.is_quiet);
   output_ = input_;
+  const Tolerances tolerances = add_tolerances(output_, tolerance_, arguments_.tolerance_field);
   Controls controls = arguments_.controls;
   // So that STL, which is binary for such coordinates only, stays binary and small.
   controls.single_precision
       = extension_of(arguments_.output) == "stl" && has_float_coordinates(input_);
   try {
-    certificate_
-        = make_geometric_mesh(output_, tolerance_, simplify_parameters(controls, Visitor(bar)));
+    certificate_ = make_geometric_mesh<Concurrency>(
+        output_, tolerance_, simplify_parameters(controls, tolerances, Visitor(bar)));
   } catch (const Invalid_input& error) {
     if (error.argument() == "mesh")
       throw Bad_file(arguments_.input, error.problem(), error.remedy());
@@ -219,6 +235,10 @@ void Simplify::verify()
     if (!verification_.certificate->holds) {
       fail_verification("of the certificate failed: " + verification_.certificate->reason);
     }
+    if (verification_.certificate->largest_normal_deviation > arguments_.controls.normal_tolerance)
+      fail_verification(
+          "of normals proves only " + to_text(verification_.certificate->largest_normal_deviation)
+          + " degrees");
   }
   verification_.distance = certify_distance(input_, output_, tolerance_);
   lap("verify");
@@ -274,8 +294,10 @@ Json Simplify::report() const
   certificate["holds"] = certificate_->holds();
   certificate["policy"] = name_of(arguments_.controls.deviation_bound, bounds());
   if (verification_.certificate) {
-    certificate["certificate_check"] = {
-        {"bound", verification_.certificate->bound}, {"holds", verification_.certificate->holds}};
+    certificate["certificate_check"]
+        = {{"bound", verification_.certificate->bound},
+           {"holds", verification_.certificate->holds},
+           {"largest_normal_deviation", verification_.certificate->largest_normal_deviation}};
   }
   if (verification_.distance) {
     certificate["distance_check"]
@@ -298,7 +320,9 @@ void Simplify::print() const
             << " (" << 100 * tolerance_ / diagonal(input_)
             << " % of the diagonal)\n  proven: no point of "
             << "either surface is farther than " << certificate_->bound() << " from the other\n";
-  if (verification_.certificate) std::cout << "  checked from its record: holds\n";
+  if (verification_.certificate)
+    std::cout << "  checked from its record: holds; normals turn by at most "
+              << verification_.certificate->largest_normal_deviation << " degrees\n";
   if (verification_.distance) std::cout << "  checked by measuring both meshes: holds\n";
   if (arguments_.skips_verification) std::cout << "  not checked independently\n";
   std::cout << "seconds\n ";
@@ -365,6 +389,18 @@ void add_controls(CLI::App& command, Controls& controls)
   command.add_option("--flip-rounds", controls.flip_rounds, "rounds of edge flips; 0: none")
       ->check(between(0, 1000))
       ->capture_default_str();
+  command
+      .add_option(
+          "--stages", controls.stages, "stages in which the tolerance grows, in equal steps")
+      ->check(between(1, 1000))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--normal-tolerance", controls.normal_tolerance,
+          "largest angle between a face and the original faces that correspond to it, in degrees; "
+          "180: any")
+      ->check(between(1e-6, 180))
+      ->capture_default_str();
   command.add_flag(
       "--allow-self-intersections", controls.allow_self_intersections,
       "do not prevent new self-intersections");
@@ -383,12 +419,16 @@ void add_simplify(CLI::App& program, Exit_status&)
           "-o,--output", arguments->output,
           "simplified mesh: off, obj, ply, stl or vtp; ply and vtp show the deviation of each face")
       ->required();
-  command
-      ->add_option(
-          "-t,--tolerance", arguments->tolerance,
-          "largest distance between the two, either way: a length (0.5) or a per cent of the "
-          "bounding-box diagonal (0.1%)")
-      ->required();
+  command->add_option(
+      "-t,--tolerance", arguments->tolerance,
+      "largest distance between the two, either way: a length (0.5) or a per cent of the "
+      "bounding-box diagonal (0.1%); may be left out with --target-faces");
+  command->add_option(
+      "--tolerance-field", arguments->tolerance_field,
+      "text file with a tolerance for each vertex or for each face, where it is less");
+  command->add_option("--threads", arguments->threads, "threads for large meshes; 0: all there are")
+      ->check(between(0, 4096))
+      ->capture_default_str();
   add_controls(*command, arguments->controls);
   command->add_flag(
       "--triangulate", arguments->reading.triangulate, "split faces with more than three corners");

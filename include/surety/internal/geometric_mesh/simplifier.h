@@ -40,7 +40,12 @@ enum class Guarding {
   always
 };
 
-enum class Outcome { complete, cancelled, intersects };
+enum class Outcome {
+  complete,
+  cancelled,
+  intersects, ///< a late look found self-intersections: to be done again
+  unusable    ///< the same, and cancelled
+};
 
 class Simplifier
 {
@@ -62,6 +67,7 @@ public:
   {
     if (direct != nullptr && !plan.overshoots.empty())
       transactions_.emplace(reference, editor_, *direct, greedy_, improver_, !plan.places_freely);
+    if (guarding == Guarding::always) editor_.start_guard();
   }
 
   /// M is valid and certified whatever the outcome.
@@ -69,9 +75,12 @@ public:
   {
     if (plan_.log != nullptr) plan_.log->clear();
     const bool is_complete = plan_.seeks_goal ? seek() : run_stages();
-    if (intersects_) return Outcome::intersects;
-    return is_complete ? Outcome::complete : Outcome::cancelled;
+    if (is_complete) return Outcome::complete;
+    return intersects_ ? Outcome::intersects : cancel();
   }
+
+  /// Ends before anything else is done.
+  Outcome cancel() { return is_guarded() ? Outcome::cancelled : Outcome::unusable; }
 
   const Operations& operations() const { return editor_.operations(); }
   Greedy& greedy() { return greedy_; }

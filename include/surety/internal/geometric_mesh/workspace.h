@@ -71,7 +71,9 @@ Simplification_plan simplification_plan(const NamedParameters& np, const char* f
   plan.places_freely = parameter_or(np, placement, defaults::placement) == Placement::free;
   plan.fewest_faces = parameter_or(np, target_faces, defaults::target_faces);
   plan.stages = stage_shares(np, function);
-  plan.seeks_goal = plan.fewest_faces > 0 && plan.stages.size() == 1;
+  // The accumulated bound adds up over the steps, and would miss the goal.
+  plan.seeks_goal = plan.fewest_faces > 0 && plan.stages.size() == 1
+      && parameter_or(np, deviation_bound, defaults::deviation_bound) == Deviation_bound::direct;
   const Effort effort_spent = parameter_or(np, effort, defaults::effort);
   if (effort_spent == Effort::standard) plan.overshoots = {1.4};
   if (plan.places_freely
@@ -131,7 +133,10 @@ std::vector<double> varying_tolerance(
       for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
         lower(v, get(map, f), "face_tolerance_map");
   }
-  if (result.empty()) return result;
+  const bool varies = std::any_of(mesh.vertices().begin(), mesh.vertices().end(), [&](auto v) {
+    return !result.empty() && result[v] < tolerance;
+  });
+  if (!varies) return {};
   std::vector<double> in_order;
   for (const auto v : elements.vertices) in_order.push_back(result[v]);
   return in_order;
@@ -211,10 +216,12 @@ public:
           reference_.point(0), visitor);
       for (const Patch& patch : patches) patch.merge_into(simplifier.greedy());
       patches.clear();
-      const Outcome outcome = is_complete ? simplifier.run() : Outcome::cancelled;
+      const Outcome outcome = is_complete ? simplifier.run() : simplifier.cancel();
       operations += simplifier.operations();
-      if (outcome != Outcome::intersects) return {operations, outcome == Outcome::complete};
+      if (outcome == Outcome::complete || outcome == Outcome::cancelled)
+        return {operations, outcome == Outcome::complete};
       start(read_connectivity(source_, elements_));
+      if (outcome == Outcome::unusable) return {Operations(), false};
     }
     return {};
   }
