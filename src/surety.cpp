@@ -49,6 +49,7 @@ int run(int argc, char* argv[])
   add_compare(program, status);
   add_verify(program, status);
   add_info(program, status);
+  add_hierarchy(program, status);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
