@@ -14,7 +14,7 @@ from pathlib import Path
 import vtk
 from heat_map import read_off, surface, title
 
-SIZE = (2400, 760)
+SIZE = (2400, 700)
 
 
 def main(folder, picture_path):
@@ -36,7 +36,7 @@ def main(folder, picture_path):
         camera.SetPosition(0, 0.15, 1)
         camera.SetViewUp(0, 1, 0)
         renderer.ResetCamera()
-        camera.Zoom(1.25)
+        camera.Zoom(1.1)
         window.AddRenderer(renderer)
     window.Render()
 
