@@ -36,15 +36,16 @@ public:
       queue_(reference.number_of_vertices()),
       slot_(reference.number_of_vertices(), none),
       best_(reference.number_of_vertices(), none),
-      refused_(2 * std::size_t(reference.number_of_edges()), false)
+      refused_(2 * std::size_t(reference.number_of_edges()), Refusal::none)
   {
     initialise_quadrics();
   }
 
-  /// Puts all vertices into the queue, whatever was refused before.
+  /// Puts all vertices into the queue. What was refused for its distance, before the tolerance
+  /// grew, may be tried again; what was refused for its shape may not.
   void start()
   {
-    std::fill(refused_.begin(), refused_.end(), false);
+    std::replace(refused_.begin(), refused_.end(), Refusal::for_distance, Refusal::none);
     for (Index v = 0; v < reference_.number_of_vertices(); ++v)
       if (mesh_.is_live_vertex(v)) schedule(v);
   }
@@ -89,6 +90,16 @@ public:
   }
 
 private:
+  /// Why a collapse was refused: for good, as long as nothing changes, or for its distance, which a
+  /// larger tolerance may allow.
+  enum class Refusal : std::uint8_t { none, for_distance, for_good };
+  static Refusal refusal_of(Verdict verdict)
+  {
+    const bool depends_on_tolerance
+        = verdict == Verdict::deviation || verdict == Verdict::correspondence;
+    return depends_on_tolerance ? Refusal::for_distance : Refusal::for_good;
+  }
+
   const Vector& origin() const { return origin_; }
   void initialise_quadrics();
   void schedule(Index p);
@@ -115,7 +126,7 @@ private:
   std::vector<Index> slot_;       ///< of the quadric of a vertex that is there at first
   std::vector<Quadric> quadrics_; ///< relative to the origin
   std::vector<Index> best_;       ///< the cheapest half-edge out of a queued vertex
-  std::vector<bool> refused_;     ///< a half-edge refused since its source's star last changed
+  std::vector<Refusal> refused_;  ///< of a half-edge since its source's star last changed
   Disc disc_;
 };
 
@@ -170,7 +181,7 @@ inline void Greedy::schedule(Index p)
   double least = 0;
   mesh_.for_each_outgoing(p, [&](Index h) {
     const Index q = mesh_.target(h);
-    if (mesh_.is_ghost_vertex(q) || refused_[h]) return;
+    if (mesh_.is_ghost_vertex(q) || refused_[h] != Refusal::none) return;
     const double c = cost(h);
     if (best == none || c < least || (c == least && h < best)) best = h, least = c;
   });
@@ -218,15 +229,16 @@ inline Vector Greedy::proposal(const Disc& disc) const
 inline void Greedy::try_collapse(Index p)
 {
   const Index h = best_[p], q = mesh_.target(h);
-  bool done = collapse_with_placement(h);
-  if (!done) {
+  if (!collapse_with_placement(h)) {
     make_collapse_disc(mesh_, h, disc_);
-    done = editor_.try_to(disc_);
-  }
-  if (!done) {
-    refused_[h] = true;
-    schedule(p);
-    return;
+    const Verdict verdict = editor_.check(disc_);
+    if (verdict != Verdict::accept) {
+      // Another placement may be found when the tolerance has grown.
+      refused_[h] = can_be_placed(h) ? Refusal::for_distance : refusal_of(verdict);
+      schedule(p);
+      return;
+    }
+    editor_.commit(disc_);
   }
   quadrics_[slot_[q]] += quadric(p);
   retry_around(disc_);
@@ -236,7 +248,7 @@ inline void Greedy::retry_around(Index v)
 {
   if (mesh_.is_fixed(v)) return;
   mesh_.for_each_outgoing(v, [&](Index h) {
-    if (h < refused_.size()) refused_[h] = false;
+    if (h < refused_.size()) refused_[h] = Refusal::none;
   });
   schedule(v);
 }
