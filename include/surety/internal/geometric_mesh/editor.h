@@ -79,6 +79,7 @@ public:
     guard_.emplace(mesh_);
     return guard_->finds_none();
   }
+  void stop_guard() { guard_.reset(); }
 
   const Working_mesh& mesh() const { return mesh_; }
   const Operations& operations() const { return operations_; }

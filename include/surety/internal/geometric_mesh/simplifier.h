@@ -34,8 +34,8 @@ struct Simplification_plan {
 /// When new self-intersections are looked for.
 enum class Guarding {
   never,
-  /// After the first collapses, when M has few faces and a look at all of them is cheap; what was
-  /// done must be done again with the guard if there are any.
+  /// After the collapses of a stage, when M has few faces and a look at all of them is cheap; what
+  /// was done must be done again with the guard if there are any.
   late,
   always
 };
@@ -116,6 +116,7 @@ private:
   bool run_collapses(bool with_flips)
   {
     greedy_.start();
+    if (guarding_ == Guarding::late) editor_.stop_guard();
     if (!collapse() || !is_guarded()) return false;
     for (unsigned round = 0; with_flips && round < plan_.flip_rounds && !is_done(); ++round) {
       const std::size_t flips = editor_.operations().flips;
@@ -129,9 +130,7 @@ private:
   /// Starts a late guard, and tells whether it comes in time.
   bool is_guarded()
   {
-    if (guarding_ != Guarding::late) return true;
-    guarding_ = Guarding::always;
-    intersects_ = !editor_.start_guard();
+    if (guarding_ == Guarding::late) intersects_ = !editor_.start_guard();
     return !intersects_;
   }
 
