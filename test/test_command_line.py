@@ -366,6 +366,51 @@ class Controls(Case):
             "simplify", "in.off", "-o", "out.off", "-t", "3%", "--allow-self-intersections")
         self.assertEqual(admitted["operations"]["refused"]["self_intersection"], 0)
 
+    def test_normal_tolerance_is_proven(self):
+        self.write("in.off", off_text(torus()))
+        faces = []
+        for angle in ("12", "40"):
+            report = self.report("simplify", "in.off", "-o", "out.off", "-t", "2%",
+                                 "--normal-tolerance", angle)
+            proven = report["certificate"]["certificate_check"]["largest_normal_deviation"]
+            self.assertLessEqual(proven, float(angle))
+            self.assertEqual(report["parameters"]["normal_tolerance"], float(angle))
+            faces.append(report["output"]["faces"])
+        self.assertGreater(faces[0], faces[1])
+
+    def test_tolerance_field_of_vertices_or_faces(self):
+        points, triangles = torus()
+        everywhere = self.faces((points, triangles), "-t", "2%")
+        for number in (len(points), len(triangles)):
+            self.write("small.txt", "1e-9\n" * number)
+            few = self.faces((points, triangles), "-t", "2%", "--tolerance-field", "small.txt")
+            self.assertGreater(few, 0.9 * len(triangles))
+            self.assertGreater(few, everywhere)
+            self.write("large.txt", "1000 " * number)
+            self.assertEqual(everywhere, self.faces((points, triangles), "-t", "2%",
+                                                    "--tolerance-field", "large.txt"))
+
+    def test_bad_tolerance_field_is_refused(self):
+        self.write("in.off", off_text(torus()))
+        number = len(torus()[0])
+        for text in ("1 2 3", "1 " * (number - 1) + "0", "1 " * (number - 1) + "x",
+                     "1 " * (number - 1) + "-1", ""):
+            self.write("bad.txt", text)
+            with self.subTest(text[-8:]):
+                self.refuse(3, "bad.txt: ", "simplify", "in.off", "-o", "out.off", "-t", "1%",
+                            "--tolerance-field", "bad.txt")
+
+    def test_target_faces_needs_no_tolerance(self):
+        self.write("in.off", off_text(torus()))
+        report = self.report("simplify", "in.off", "-o", "out.off", "--target-faces", "200")
+        self.assertLessEqual(report["output"]["faces"], 200)
+        self.assertTrue(report["certificate"]["holds"])
+
+    def test_threads_and_stages(self):
+        alone = self.faces(torus(), "-t", "2%", "--threads", "1")
+        self.assertEqual(alone, self.faces(torus(), "-t", "2%", "--threads", "2"))
+        self.assertLess(self.faces(torus(), "-t", "2%", "--stages", "3"), len(torus()[1]))
+
     def test_effort_fast_keeps_vertices_of_the_input(self):
         self.faces(torus(), "-t", "2%", "--effort", "fast", "--placement", "on-surface")
         points, _ = read_off(self.folder / "out.off")
