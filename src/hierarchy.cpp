@@ -3,6 +3,7 @@
 // surety hierarchy: levels of detail, one file each, and an index that tells a viewer when to
 // switch. All of it appears at once, as a folder, or not at all.
 #include "commands.h"
+#include "controls.h"
 #include "glb.h"
 #include "instantiations.h"
 #include "interruption.h"
@@ -35,7 +36,6 @@ struct Arguments {
   std::string input, folder, tolerances, report, format = "glb";
   Reading reading;
   Controls controls;
-  Effort effort = Effort::fast;
   double viewport_height = 1080, field_of_view = 60, pixel_error = 1;
   bool with_certificates = false, is_quiet = false, skips_verification = false;
 };
@@ -218,14 +218,15 @@ void Make_hierarchy::simplify()
   try {
     hierarchy_ = make_hierarchy(
         input_, tolerances,
-        parameters::feature_angle(c.feature_angle)
+        parameters::placement(c.placement)
+            .effort(c.effort)
+            .feature_angle(c.feature_angle)
             .corner_angle(c.corner_angle)
             .roughness_angle(c.roughness_angle)
             .shape_ratio(c.shape_ratio)
             .shape_floor(c.shape_floor)
             .flip_rounds(c.flip_rounds)
             .allow_self_intersections(c.allow_self_intersections)
-            .effort(arguments_.effort)
             .single_precision(is_single_precision())
             .visitor(Visitor(bar)));
   } catch (const Invalid_input& error) {
@@ -332,32 +333,12 @@ void Make_hierarchy::print() const
   if (arguments_.skips_verification) std::cout << "  not checked independently\n";
 }
 
-void add_controls(CLI::App& command, Arguments& arguments)
+void add_view(CLI::App& command, Arguments& arguments)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Controls& controls = arguments.controls;
   const auto number
       = [&](const char* name, auto& value, const char* text, double low, double high) {
           command.add_option(name, value, text)->check(between(low, high))->capture_default_str();
         };
-  number(
-      "--feature-angle", controls.feature_angle,
-      "keep edges that turn by more, in degrees, as ridges; 180: none", 0, 180);
-  number(
-      "--corner-angle", controls.corner_angle,
-      "keep vertices where ridges or borders turn by more, in degrees", 0, 180);
-  number(
-      "--roughness-angle", controls.roughness_angle,
-      "largest angle of a face to the original normals, in degrees; 180: any", 1e-6, 180);
-  number(
-      "--shape-ratio", controls.shape_ratio, "how much worse than the old faces new ones may be", 1,
-      infinity);
-  number(
-      "--shape-floor", controls.shape_floor, "quality Q up to which any new face is admitted", 1,
-      infinity);
-  number(
-      "--flip-rounds", controls.flip_rounds, "rounds of edge flips in the last level; 0: none", 0,
-      1000);
   number(
       "--viewport-height", arguments.viewport_height,
       "height of the view in pixels, for the switching distances", 1, 1e6);
@@ -367,14 +348,6 @@ void add_controls(CLI::App& command, Arguments& arguments)
   number(
       "--pixel-error", arguments.pixel_error,
       "deviation in pixels that may be seen, for the switching distances", 1e-3, 1e6);
-  command.add_flag(
-      "--allow-self-intersections", controls.allow_self_intersections,
-      "do not prevent new self-intersections");
-  const std::map<std::string, Effort> efforts
-      = {{"fast", Effort::fast}, {"standard", Effort::standard}, {"best", Effort::best}};
-  command.add_option("--effort", arguments.effort, "work spent on few faces in the last level")
-      ->transform(CLI::CheckedTransformer(efforts).description("fast|standard|best"))
-      ->default_str("fast");
 }
 
 } // namespace
@@ -396,7 +369,10 @@ void add_hierarchy(CLI::App& program, Exit_status&)
   command->add_option("--format", arguments->format, "format of the levels")
       ->check(CLI::IsMember({"glb", "off", "obj", "ply", "stl"}))
       ->capture_default_str();
-  add_controls(*command, *arguments);
+  // Effort is spent in the last level only.
+  arguments->controls.effort = Effort::fast;
+  add_controls(*command, arguments->controls);
+  add_view(*command, *arguments);
   command->add_flag(
       "--triangulate", arguments->reading.triangulate, "split faces with more than three corners");
   command->add_flag(

@@ -3,6 +3,7 @@
 // surety simplify: read, simplify, verify independently, write. Nothing appears on disk before
 // everything has succeeded.
 #include "commands.h"
+#include "controls.h"
 #include "instantiations.h"
 #include "interruption.h"
 #include "length.h"
@@ -31,62 +32,11 @@ struct Arguments {
   bool is_quiet = false, skips_verification = false;
 };
 
-using Placements = std::map<std::string, Placement>;
-using Efforts = std::map<std::string, Effort>;
-using Bounds = std::map<std::string, Deviation_bound>;
-
-const Placements& placements()
-{
-  static const Placements names
-      = {{"on-surface", Placement::on_surface}, {"free", Placement::free}};
-  return names;
-}
-
-const Efforts& efforts()
-{
-  static const Efforts names
-      = {{"fast", Effort::fast}, {"default", Effort::standard}, {"best", Effort::best}};
-  return names;
-}
-
-const Bounds& bounds()
-{
-  static const Bounds names
-      = {{"direct", Deviation_bound::direct}, {"accumulated", Deviation_bound::accumulated}};
-  return names;
-}
-
-template <class Value>
-std::string name_of(Value value, const std::map<std::string, Value>& names)
-{
-  const auto found = std::find_if(
-      names.begin(), names.end(), [&](const auto& named) { return named.second == value; });
-  return found->first;
-}
-
 /// What the two independent checks say.
 struct Verification {
   std::optional<Certificate_check> certificate;
   std::optional<Distance_certificate> distance;
 };
-
-Json describe(const Controls& controls)
-{
-  return {
-      {"placement", name_of(controls.placement, placements())},
-      {"effort", name_of(controls.effort, efforts())},
-      {"target_faces", controls.target_faces},
-      {"bound", name_of(controls.deviation_bound, bounds())},
-      {"feature_angle", controls.feature_angle},
-      {"corner_angle", controls.corner_angle},
-      {"roughness_angle", controls.roughness_angle},
-      {"shape_ratio", controls.shape_ratio},
-      {"shape_floor", controls.shape_floor},
-      {"flip_rounds", controls.flip_rounds},
-      {"stages", controls.stages},
-      {"normal_tolerance", controls.normal_tolerance},
-      {"allow_self_intersections", controls.allow_self_intersections}};
-}
 
 class Simplify
 {
@@ -292,7 +242,7 @@ Json Simplify::report() const
   certificate["tolerance"] = tolerance_;
   certificate["bound"] = certificate_->bound();
   certificate["holds"] = certificate_->holds();
-  certificate["policy"] = name_of(arguments_.controls.deviation_bound, bounds());
+  certificate["policy"] = name_of(arguments_.controls.deviation_bound, names_of_bounds());
   if (verification_.certificate) {
     certificate["certificate_check"]
         = {{"bound", verification_.certificate->bound},
@@ -332,21 +282,8 @@ void Simplify::print() const
   std::cout << '\n';
 }
 
-void add_controls(CLI::App& command, Controls& controls)
+void add_own_controls(CLI::App& command, Controls& controls)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  command
-      .add_option(
-          "--placement", controls.placement,
-          "where vertices may go; free: anywhere within the tolerance, which takes fewer faces")
-      ->transform(CLI::CheckedTransformer(placements()).description("on-surface|free"))
-      ->default_str("on-surface");
-  command
-      .add_option(
-          "--effort", controls.effort,
-          "how much work to spend on having few faces; fast: less than a third of the time")
-      ->transform(CLI::CheckedTransformer(efforts()).description("fast|default|best"))
-      ->default_str("default");
   command
       .add_option(
           "--target-faces", controls.target_faces,
@@ -355,40 +292,8 @@ void add_controls(CLI::App& command, Controls& controls)
       ->check(between(0, 4e9))
       ->capture_default_str();
   command.add_option("--bound", controls.deviation_bound, "how the distance is bounded")
-      ->transform(CLI::CheckedTransformer(bounds()).description("direct|accumulated"))
+      ->transform(CLI::CheckedTransformer(names_of_bounds()).description("direct|accumulated"))
       ->default_str("direct");
-  command
-      .add_option(
-          "--feature-angle", controls.feature_angle,
-          "keep edges that turn by more, in degrees, as ridges; 180: none")
-      ->check(between(0, 180))
-      ->capture_default_str();
-  command
-      .add_option(
-          "--corner-angle", controls.corner_angle,
-          "keep vertices where ridges or borders turn by more, in degrees")
-      ->check(between(0, 180))
-      ->capture_default_str();
-  command
-      .add_option(
-          "--roughness-angle", controls.roughness_angle,
-          "largest angle of a face to the original normals, in degrees; 180: any")
-      ->check(between(1e-6, 180))
-      ->capture_default_str();
-  command
-      .add_option(
-          "--shape-ratio", controls.shape_ratio,
-          "how much worse than the old faces new ones may be")
-      ->check(between(1, infinity))
-      ->capture_default_str();
-  command
-      .add_option(
-          "--shape-floor", controls.shape_floor, "quality Q up to which any new face is admitted")
-      ->check(between(1, infinity))
-      ->capture_default_str();
-  command.add_option("--flip-rounds", controls.flip_rounds, "rounds of edge flips; 0: none")
-      ->check(between(0, 1000))
-      ->capture_default_str();
   command
       .add_option(
           "--stages", controls.stages, "stages in which the tolerance grows, in equal steps")
@@ -401,9 +306,6 @@ void add_controls(CLI::App& command, Controls& controls)
           "180: any")
       ->check(between(1e-6, 180))
       ->capture_default_str();
-  command.add_flag(
-      "--allow-self-intersections", controls.allow_self_intersections,
-      "do not prevent new self-intersections");
 }
 
 } // namespace
@@ -430,6 +332,7 @@ void add_simplify(CLI::App& program, Exit_status&)
       ->check(between(0, 4096))
       ->capture_default_str();
   add_controls(*command, arguments->controls);
+  add_own_controls(*command, arguments->controls);
   command->add_flag(
       "--triangulate", arguments->reading.triangulate, "split faces with more than three corners");
   command->add_option(
