@@ -75,6 +75,7 @@ public:
 
   Verdict check(const Disc& disc) override;
   void commit(const Disc& disc) override;
+  bool is_blocked(const Disc& disc) const override;
   Forecast forecast(const Disc& disc) const override;
   void set_stage(double share) override { tolerance_.set_stage(share); }
   std::vector<double> face_bounds() override;
@@ -123,7 +124,6 @@ private:
   using Side = Disc::Side;
 
   // Step 1: the T vertices on the disc.
-  bool is_blocked() const;
   bool apex_is_in_range() const;
   bool move_vertices();
   bool move_vertices_to_ridges();

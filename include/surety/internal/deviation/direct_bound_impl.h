@@ -70,7 +70,7 @@ inline Verdict Direct_bound::check(const Disc& disc)
 {
   forget_disc();
   disc_ = &disc;
-  if (is_blocked() || !apex_is_in_range() || !move_vertices()) return Verdict::deviation;
+  if (!apex_is_in_range() || !move_vertices()) return Verdict::deviation;
   disc_edges_.assign(disc);
   gather_edges();
   const Verdict verdict = route_edges();
@@ -103,16 +103,16 @@ inline double Direct_bound::nearest_face(
   return best;
 }
 
-inline bool Direct_bound::is_blocked() const
+inline bool Direct_bound::is_blocked(const Disc& disc) const
 {
-  if (disc_->removed == none) return false;
-  const Index v = blocker_[disc_->removed];
+  if (disc.removed == none) return false;
+  const Index v = blocker_[disc.removed];
   if (v == none || map_.image(v).kind() != Element::Kind::face) return false;
-  const Index i = disc_->position_of_old_face(map_.image(v).id());
+  const Index i = disc.position_of_old_face(map_.image(v).id());
   if (i == none) return false;
   Index face = none;
   return !(
-      nearest_face(*disc_, reference_.point(v), disc_->side_of_place(disc_->old_place[i]), face)
+      nearest_face(disc, reference_.point(v), disc.side_of_place(disc.old_place[i]), face)
       <= tolerance_.squared_limit(v));
 }
 

@@ -19,6 +19,13 @@ public:
   virtual Verdict check(const Disc& disc) = 0;
   virtual void commit(const Disc& disc) = 0;
 
+  /// Whether what refused an operation like this one before still does: the cheapest of tests.
+  virtual bool is_blocked(const Disc& disc) const
+  {
+    static_cast<void>(disc);
+    return false;
+  }
+
   /// Squared distances before and after an operation, as far as they can be foretold without
   /// checking it: a hint for choosing operations, and no bound.
   struct Forecast {

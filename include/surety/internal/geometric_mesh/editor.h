@@ -197,6 +197,7 @@ private:
 
   Verdict check_geometry(const Disc& disc)
   {
+    if (deviation_.is_blocked(disc)) return Verdict::deviation;
     if (!shape_.admits(disc, mesh_)) return Verdict::shape;
     if (!roughness_.admits(disc, mesh_)) return Verdict::roughness;
     const Verdict verdict = deviation_.check(disc);
