@@ -165,6 +165,12 @@ private:
   std::optional<Inner_item> inner_item(Index face);
   double limit_at(const Inner_item& inner) const;
 
+  /// Infinite where rounding alone exceeds the tolerance, and the limit is negative.
+  static double ratio(double squared_distance, double squared_limit)
+  {
+    return squared_limit > 0 ? squared_distance / squared_limit
+                             : std::numeric_limits<double>::infinity();
+  }
   Vector point_on_edge(Index e, double lambda) const
   {
     const auto [s, t] = reference_.vertices_of_edge(e);
@@ -244,8 +250,6 @@ private:
   // T edges routed since the transaction began, and the size of the pool of nodes then.
   std::vector<Index> touched_edges_;
   std::size_t nodes_before_ = 0;
-
-  friend class After_disc;
 };
 
 } // namespace surety::internal

@@ -588,7 +588,8 @@ inline double Direct_bound::largest_ratio_at_vertex(Index m_vertex) const
 {
   const Index v = map_.pin(m_vertex);
   if (v == none) return 0;
-  return (reference_.point(v) - mesh_.point(m_vertex)).squaredNorm() / tolerance_.squared_limit(v);
+  return ratio(
+      (reference_.point(v) - mesh_.point(m_vertex)).squaredNorm(), tolerance_.squared_limit(v));
 }
 
 inline double Direct_bound::largest_ratio_on_face(Index m_face) const
@@ -596,7 +597,7 @@ inline double Direct_bound::largest_ratio_on_face(Index m_face) const
   double largest = 0;
   map_.for_each_vertex_on_face(m_face, [&](Index v) {
     const double squared = squared_distance_to_m_face(reference_.point(v), m_face);
-    largest = std::max(largest, squared / tolerance_.squared_limit(v));
+    largest = std::max(largest, ratio(squared, tolerance_.squared_limit(v)));
   });
   return largest;
 }
@@ -606,13 +607,13 @@ inline double Direct_bound::largest_ratio_on_edge(Index m_edge) const
   double largest = 0;
   map_.for_each_vertex_on_edge(m_edge, [&](Index v) {
     const double squared = squared_distance_to_m_edge(reference_.point(v), m_edge);
-    largest = std::max(largest, squared / tolerance_.squared_limit(v));
+    largest = std::max(largest, ratio(squared, tolerance_.squared_limit(v)));
   });
   map_.for_each_node_on_m(m_edge, [&](Index n) {
     const Node& node = map_.node(n);
     const double squared
         = squared_distance_to_m_edge(point_on_edge(node.t_edge, node.lambda), m_edge);
-    largest = std::max(largest, squared / limit_on_edge(node.t_edge, node.lambda));
+    largest = std::max(largest, ratio(squared, limit_on_edge(node.t_edge, node.lambda)));
   });
   return largest;
 }
@@ -626,7 +627,7 @@ inline double Direct_bound::largest_inner_ratio_of_transaction()
       if (f == none || !collect_items(f) || cells_.triangulates(items_, after_disc(f))) continue;
       const auto inner = inner_item(f);
       if (!inner) return std::numeric_limits<double>::infinity();
-      largest = std::max(largest, inner->squared_distance / limit_at(*inner));
+      largest = std::max(largest, ratio(inner->squared_distance, limit_at(*inner)));
     }
   return largest;
 }
