@@ -16,6 +16,7 @@
 #include <CGAL/property_map.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace surety {
@@ -161,6 +162,45 @@ Features find_features(
           CGAL::Static_boolean_property_map<Vertex, false>()),
       corner_angle, features);
   return features;
+}
+
+/// \brief The sides of a surface: what feature edges leave of the faces round each vertex.
+///
+/// A vertex that no feature passes has one side, all the faces round it; on a ridge it has two, on
+/// a border one, at a corner as many as curves meet there. What is smooth on a side only (normal,
+/// curvature, metric) is stored once a side.
+struct Sides {
+  static constexpr std::uint32_t no_side = 0xffffffff;
+
+  std::vector<std::uint32_t> of_corner; ///< by halfedge h: the side at its target that has face(h)
+  std::vector<std::uint32_t> vertex;    ///< by side: the vertex that it belongs to
+  std::vector<std::uint32_t> first;     ///< by vertex: its first side; the others follow
+
+  std::size_t size() const { return vertex.size(); }
+};
+
+/// \brief Numbers the sides of a mesh; those of a vertex are consecutive.
+///
+/// Linear in the size of the mesh. Isolated vertices have no side.
+template <class Mesh>
+Sides find_sides(const Mesh& mesh, const Features& features)
+{
+  Sides sides;
+  sides.of_corner.assign(num_halfedges(mesh), Sides::no_side);
+  sides.first.assign(num_vertices(mesh) + 1, 0);
+  for (const auto v : vertices(mesh)) {
+    sides.first[v] = static_cast<std::uint32_t>(sides.size());
+    const auto any = halfedge(v, mesh);
+    if (any == boost::graph_traits<Mesh>::null_halfedge()) continue;
+    for (const auto h : CGAL::halfedges_around_target(any, mesh)) {
+      if (CGAL::is_border(h, mesh) || sides.of_corner[h] != Sides::no_side) continue;
+      for (const auto corner : internal::sector(mesh, features.edge, h))
+        sides.of_corner[corner] = static_cast<std::uint32_t>(sides.size());
+      sides.vertex.push_back(static_cast<std::uint32_t>(v));
+    }
+  }
+  sides.first.back() = static_cast<std::uint32_t>(sides.size());
+  return sides;
 }
 
 /// \brief The normal of the surface at each corner of each face, one a side of every feature.

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is known of the curvature of a surface: once a side of every vertex, and along the curves of
+// features.
+#ifndef SURETY_CURVATURE_FIELD_H
+#define SURETY_CURVATURE_FIELD_H
+
+#include <surety/features.h>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace surety {
+
+/// The shape of a surface near a point, from the signs of its principal curvatures.
+enum class Point_type {
+  planar,    ///< both vanish
+  parabolic, ///< one vanishes: cylinders, cones, and curves on most surfaces
+  elliptic,  ///< of one sign: convex or concave
+  hyperbolic ///< of opposite signs: saddles
+};
+
+/// \brief Second-order shape of a surface at one side of a vertex.
+///
+/// Curvatures are in 1/length, derivatives in 1/length^2. They are positive where the surface bends
+/// towards its normal: a sphere whose faces are oriented outwards has curvature -1/radius. The
+/// directions and the normal are of unit length and orthogonal to each other.
+struct Side_curvature {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  Eigen::Vector3d min_direction = Eigen::Vector3d::Zero();
+  Eigen::Vector3d max_direction = Eigen::Vector3d::Zero();
+  double min_curvature = 0;  ///< the smaller one, with its sign
+  double max_curvature = 0;  ///< the larger one, with its sign
+  double min_derivative = 0; ///< of min_curvature along min_direction
+  double max_derivative = 0; ///< of max_curvature along max_direction
+  Point_type type = Point_type::planar;
+
+  double mean_curvature() const { return (min_curvature + max_curvature) / 2; }
+  double gaussian_curvature() const { return min_curvature * max_curvature; }
+};
+
+/// A curve of features where it passes a vertex; both members vanish at corners and off features.
+struct Curve_curvature {
+  Eigen::Vector3d tangent = Eigen::Vector3d::Zero(); ///< of unit length
+  double curvature = 0;                              ///< of the space curve, not negative
+};
+
+/// The curvature of a surface, one entry a side and one a vertex.
+struct Curvature_field {
+  Sides sides;
+  std::vector<Side_curvature> side;   ///< by side
+  std::vector<Curve_curvature> curve; ///< by vertex
+};
+
+} // namespace surety
+
+#endif // SURETY_CURVATURE_FIELD_H
