@@ -60,9 +60,6 @@ public:
       map_(
           reference.number_of_vertices(), reference.number_of_edges(), mesh.number_of_edges(),
           mesh.number_of_real_faces(), journal),
-      disc_edges_(mesh.number_of_edges()),
-      slot_of_vertex_(reference.number_of_vertices(), 0),
-      slot_of_edge_(reference.number_of_edges(), 0),
       blocker_(reference.number_of_vertices(), none)
   {}
 
@@ -137,9 +134,8 @@ private:
   void gather_edges_of_flip();
   void gather_edge(Index e)
   {
-    if (slot_of_edge(e) != none) return;
-    slot_of_edge_[e] = static_cast<Index>(edges_.size());
-    edges_.push_back({e, 0, 0});
+    if (slot_of_edge_.insert_if_new(e, static_cast<Index>(edges_.size())))
+      edges_.push_back({e, 0, 0});
   }
   Verdict route_edges();
   Verdict route(Index e);
@@ -196,16 +192,8 @@ private:
         p, a, mesh_.point(corner[1]) - a, mesh_.point(corner[2]) - a);
   }
 
-  Index slot_of_vertex(Index v) const
-  {
-    const Index slot = slot_of_vertex_[v];
-    return slot < vertices_.size() && vertices_[slot].vertex == v ? slot : none;
-  }
-  Index slot_of_edge(Index e) const
-  {
-    const Index slot = slot_of_edge_[e];
-    return slot < edges_.size() && edges_[slot].edge == e ? slot : none;
-  }
+  Index slot_of_vertex(Index v) const { return slot_of_vertex_.find(v); }
+  Index slot_of_edge(Index e) const { return slot_of_edge_.find(e); }
   Element image(Index v) const
   {
     const Index slot = slot_of_vertex(v);
@@ -219,6 +207,8 @@ private:
   {
     disc_ = &no_disc_;
     disc_edges_.clear();
+    slot_of_vertex_.clear();
+    slot_of_edge_.clear();
     vertices_.clear();
     edges_.clear();
     nodes_.clear();
@@ -240,8 +230,8 @@ private:
   std::vector<Pending_node> nodes_;
   Vector fan_normal_; ///< of a closed fan
 
-  // Sparse sets: element -> slot, valid if the slot names the element.
-  std::vector<Index> slot_of_vertex_, slot_of_edge_;
+  Slot_table slot_of_vertex_, slot_of_edge_; ///< in vertices_ and edges_
+  Slot_table seen_faces_;
   // The T vertex that last refused the removal of an M vertex: asked first the next time.
   std::vector<Index> blocker_;
   std::vector<Item> items_;

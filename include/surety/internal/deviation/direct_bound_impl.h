@@ -134,7 +134,7 @@ inline bool Direct_bound::move_to_faces(Index v, Side side)
     if (disc_->removed != none) blocker_[disc_->removed] = v;
     return false;
   }
-  slot_of_vertex_[v] = static_cast<Index>(vertices_.size());
+  slot_of_vertex_.insert(v, static_cast<Index>(vertices_.size()));
   vertices_.push_back({v, Element(Element::Kind::face, disc_->face[face]), face, 1});
   return true;
 }
@@ -146,7 +146,7 @@ inline bool Direct_bound::move_to_ridge(Index v, Index spoke)
         <= tolerance_.squared_limit(v)))
     return false;
   const Side at_spoke = faces_at_spoke(spoke);
-  slot_of_vertex_[v] = static_cast<Index>(vertices_.size());
+  slot_of_vertex_.insert(v, static_cast<Index>(vertices_.size()));
   vertices_.push_back(
       {v, Element(Element::Kind::edge, disc_->spoke[spoke]), at_spoke.low, at_spoke.count});
   return true;
@@ -411,14 +411,10 @@ inline Verdict Direct_bound::cross(Index e, Index spoke, double low, double high
 
 inline bool Direct_bound::extends_over_faces()
 {
-  for (Index slot = 0; slot < edges_.size(); ++slot)
-    for (const Index f : reference_.faces_of_edge(edges_[slot].edge)) {
-      if (f == none) continue;
-      // Each face once, from the first of its routed edges.
-      bool first = true;
-      for (const Index e : reference_.edges_of_face(f)) first = first && slot_of_edge(e) >= slot;
-      if (first && !extends_over(f)) return false;
-    }
+  seen_faces_.clear();
+  for (const Routed_edge& routed : edges_)
+    for (const Index f : reference_.faces_of_edge(routed.edge))
+      if (f != none && seen_faces_.insert_if_new(f, 0) && !extends_over(f)) return false;
   return true;
 }
 

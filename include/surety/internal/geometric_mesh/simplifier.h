@@ -109,6 +109,7 @@ private:
   bool run_stage(double share, bool with_transactions)
   {
     deviation_.set_stage(share);
+    edges_swept_at_ = vertices_swept_at_ = 0;
     return run_collapses(share >= 1 || plan_.flips_in_all_stages)
         && (!with_transactions || run_transactions());
   }
@@ -157,17 +158,31 @@ private:
   bool collapse() { return greedy_.run(report(), goal()); }
 
   /// Flips edges, and relocates vertices, wherever that helps.
-  bool sweep(bool relocates)
+  bool sweep(bool relocates) { return sweep_edges() && (!relocates || sweep_vertices()); }
+
+  bool sweep_edges()
   {
+    const Index since = std::exchange(edges_swept_at_, editor_.clock() + 1);
     const Index edges = mesh_.number_of_real_edges();
     for (Index e = 0; e < edges; ++e) {
       if (e % 4096 == 0 && !report()("flip", double(e) / edges)) return false;
+      // Whatever changes a face of the edge changes the stars of both ends.
+      const Index h = mesh_.halfedge(e);
+      if (!mesh_.is_live_edge(e) || editor_.changed_at(mesh_.source(h)) < since
+          || editor_.changed_at(mesh_.target(h)) < since)
+        continue;
       if (improver_.flip(e)) greedy_.retry_around(improver_.disc());
     }
-    if (!relocates) return true;
+    return true;
+  }
+
+  bool sweep_vertices()
+  {
+    const Index since = std::exchange(vertices_swept_at_, editor_.clock() + 1);
     const Index vertices = mesh_.number_of_real_vertices();
     for (Index v = 0; v < vertices; ++v) {
       if (v % 4096 == 0 && !report()("relocate", double(v) / vertices)) return false;
+      if (editor_.changed_at(v) < since) continue;
       if (improver_.relocate(v, transactions_->optimizer(), 0.02))
         greedy_.retry_around(improver_.disc());
     }
@@ -190,6 +205,8 @@ private:
   Deviation_policy& deviation_;
   std::optional<Transactions> transactions_;
   bool intersects_ = false;
+  /// What has not changed since the last sweep need not be tried again: the time then.
+  Index edges_swept_at_ = 0, vertices_swept_at_ = 0;
   std::function<bool(const Progress&)> visitor_;
 };
 

@@ -5,25 +5,26 @@
 #define SURETY_INTERNAL_OPERATORS_DISC_EDGES_H
 
 #include <surety/internal/operators/disc.h>
+#include <surety/internal/slot_table.h>
 
 #include <vector>
 
 namespace surety::internal {
 
-/// A sparse set: an edge leads to a slot, which is valid if it names the edge.
 class Disc_edges
 {
 public:
   struct Role {
-    Index edge = none;
     Index link = none;      ///< place in the link
     Index new_spoke = none; ///< place among the new spokes
     bool is_old_spoke = false;
   };
 
-  explicit Disc_edges(Index edges) : slot_(edges, 0) {}
-
-  void clear() { roles_.clear(); }
+  void clear()
+  {
+    slots_.clear();
+    roles_.clear();
+  }
   void assign(const Disc& disc)
   {
     clear();
@@ -34,21 +35,21 @@ public:
 
   const Role& operator[](Index edge) const
   {
-    const Index slot = slot_[edge];
-    return slot < roles_.size() && roles_[slot].edge == edge ? roles_[slot] : outside_;
+    const Index slot = slots_.find(edge);
+    return slot != none ? roles_[slot] : outside_;
   }
 
 private:
   Role& role_of(Index edge)
   {
-    const Index slot = slot_[edge];
-    if (slot < roles_.size() && roles_[slot].edge == edge) return roles_[slot];
-    slot_[edge] = static_cast<Index>(roles_.size());
-    roles_.push_back({edge, none, none, false});
+    const Index slot = slots_.find(edge);
+    if (slot != none) return roles_[slot];
+    slots_.insert(edge, static_cast<Index>(roles_.size()));
+    roles_.emplace_back();
     return roles_.back();
   }
 
-  std::vector<Index> slot_;
+  Slot_table slots_;
   std::vector<Role> roles_;
   Role outside_;
 };
