@@ -58,7 +58,11 @@ public:
       if (mesh_.number_of_live_faces() <= fewest_faces) return true;
       const double left = std::min(1.0, static_cast<double>(queue_.size()) / goal);
       if (tries % 1024 == 0 && !report("collapse", 1 - left)) return false;
-      try_collapse(queue_.pop());
+      const Index p = queue_.pop();
+      if (best_[p] != none)
+        try_collapse(p);
+      else
+        schedule(p);
     }
     return true;
   }
@@ -125,8 +129,8 @@ private:
   Vertex_queue queue_;
   std::vector<Index> slot_;       ///< of the quadric of a vertex that is there at first
   std::vector<Quadric> quadrics_; ///< relative to the origin
-  std::vector<Index> best_;       ///< the cheapest half-edge out of a queued vertex
-  std::vector<Refusal> refused_;  ///< of a half-edge since its source's star last changed
+  std::vector<Index> best_; ///< the cheapest half-edge out of a queued vertex; `none`: not known
+  std::vector<Refusal> refused_; ///< of a half-edge since its source's star last changed
   Disc disc_;
 };
 
@@ -250,7 +254,11 @@ inline void Greedy::retry_around(Index v)
   mesh_.for_each_outgoing(v, [&](Index h) {
     if (h < refused_.size()) refused_[h] = Refusal::none;
   });
-  schedule(v);
+  // Its turn does not change until it comes: most vertices change many times before.
+  if (queue_.contains(v))
+    best_[v] = none;
+  else
+    schedule(v);
 }
 
 } // namespace surety::internal

@@ -26,6 +26,7 @@ public:
 
   bool empty() const { return heap_.empty(); }
   std::size_t size() const { return heap_.size(); }
+  bool contains(Index v) const { return place_[v] != none; }
 
   /// Puts v into the queue, or moves it.
   void set(Index v, double cost)
