@@ -11,6 +11,7 @@
 #include <surety/internal/geometric_mesh/vertex_queue.h>
 #include <surety/parameters.h>
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -23,9 +24,9 @@ class Greedy
 {
 public:
   /// Given the bound, vertices are placed freely: the vertex that two become goes where its quadric
-  /// is least.
+  /// is least. Where a bound adds up, what costs least must come first to the last bit.
   Greedy(
-      const Reference& reference, Editor& editor, const Direct_bound* free_bound,
+      const Reference& reference, Editor& editor, const Direct_bound* free_bound, bool adds_up,
       const Vector& origin)
     : reference_(reference),
       editor_(editor),
@@ -33,6 +34,7 @@ public:
       walk_(reference),
       origin_(origin),
       bound_(free_bound),
+      adds_up_(adds_up),
       queue_(reference.number_of_vertices()),
       slot_(reference.number_of_vertices(), none),
       best_(reference.number_of_vertices(), none),
@@ -108,6 +110,7 @@ private:
   void initialise_quadrics();
   void schedule(Index p);
   double cost(Index h) const;
+  static float magnitude(double cost);
   /// Two interior vertices, or two successive ones on a ridge or border.
   bool can_be_placed(Index h) const
   {
@@ -125,6 +128,7 @@ private:
   Surface_walk walk_;
   Vector origin_;             ///< that quadrics are relative to
   const Direct_bound* bound_; ///< with free placement
+  bool adds_up_;
 
   Vertex_queue queue_;
   std::vector<Index> slot_;       ///< of the quadric of a vertex that is there at first
@@ -177,6 +181,19 @@ inline double Greedy::cost(Index h) const
   return (quadric(p)(x) + quadric(q)(x)) / length + flat_ground * length;
 }
 
+/// The order of magnitude of a cost, one for every factor of 16. Vertices that agree in it come in
+/// the order of their indices, which follow a space-filling curve: successive collapses are
+/// neighbours and find their data in the cache, and they leave fewer faces than those in the exact
+/// order of their cost.
+inline float Greedy::magnitude(double cost)
+{
+  constexpr int below_all = -1200;
+  if (!(cost > 0)) return below_all;
+  int exponent = 0;
+  std::frexp(cost, &exponent);
+  return static_cast<float>((exponent - below_all) / 4);
+}
+
 /// Queues p with its cheapest half-edge that has not been refused.
 inline void Greedy::schedule(Index p)
 {
@@ -193,7 +210,7 @@ inline void Greedy::schedule(Index p)
   if (best == none)
     queue_.remove(p);
   else
-    queue_.set(p, least);
+    queue_.set(p, adds_up_ ? static_cast<float>(least) : magnitude(least));
 }
 
 inline bool Greedy::collapse_with_placement(Index h)

@@ -60,7 +60,7 @@ public:
       plan_(plan),
       guarding_(guarding),
       editor_(reference, mesh, deviation, controls, journal),
-      greedy_(reference, editor_, plan.places_freely ? direct : nullptr, origin),
+      greedy_(reference, editor_, plan.places_freely ? direct : nullptr, direct == nullptr, origin),
       improver_(editor_, deviation, plan.flip_rounds > 0, plan.places_freely),
       deviation_(deviation),
       visitor_(std::move(visitor))

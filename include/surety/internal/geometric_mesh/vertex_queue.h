@@ -2,18 +2,13 @@
 //
 // Vertices by the cost of their cheapest collapse. Every vertex is in the queue at most once and
 // can change its cost, where a queue of stale entries would grow to several times its size.
-//
-// Costs count by their order of magnitude only. Among vertices of one level the order is that of
-// their indices, which follow a space-filling curve: successive collapses are neighbours and find
-// their data in the cache, and they leave fewer faces than those in the exact order of their cost.
 #ifndef SURETY_INTERNAL_GEOMETRIC_MESH_VERTEX_QUEUE_H
 #define SURETY_INTERNAL_GEOMETRIC_MESH_VERTEX_QUEUE_H
 
 #include <surety/internal/linear.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace surety::internal {
@@ -22,24 +17,23 @@ namespace surety::internal {
 class Vertex_queue
 {
 public:
-  explicit Vertex_queue(std::size_t vertices) : level_(vertices), place_(vertices, none) {}
+  explicit Vertex_queue(std::size_t vertices) : cost_(vertices), place_(vertices, none) {}
 
   bool empty() const { return heap_.empty(); }
   std::size_t size() const { return heap_.size(); }
   bool contains(Index v) const { return place_[v] != none; }
 
   /// Puts v into the queue, or moves it.
-  void set(Index v, double cost)
+  void set(Index v, float cost)
   {
-    const std::int16_t level = level_of(cost), old = level_[v];
-    level_[v] = level;
+    const float old = std::exchange(cost_[v], cost);
     if (place_[v] == none) {
       place_[v] = static_cast<Index>(heap_.size());
       heap_.push_back(v);
       rise(place_[v]);
-    } else if (level < old) {
+    } else if (cost < old) {
       rise(place_[v]);
-    } else if (level > old) {
+    } else if (cost > old) {
       sink(place_[v]);
     }
   }
@@ -67,20 +61,7 @@ public:
 private:
   static constexpr Index arity = 4;
 
-  /// A level for every factor of 16.
-  static std::int16_t level_of(double cost)
-  {
-    constexpr int lowest = -1200; // below the exponent of every double
-    if (!(cost > 0)) return lowest / 4;
-    int exponent = 0;
-    std::frexp(cost, &exponent);
-    return static_cast<std::int16_t>((exponent - lowest) / 4 + lowest / 4);
-  }
-
-  bool before(Index a, Index b) const
-  {
-    return level_[a] != level_[b] ? level_[a] < level_[b] : a < b;
-  }
+  bool before(Index a, Index b) const { return cost_[a] != cost_[b] ? cost_[a] < cost_[b] : a < b; }
   void put(Index place, Index v)
   {
     heap_[place] = v;
@@ -111,7 +92,7 @@ private:
     put(place, v);
   }
 
-  std::vector<std::int16_t> level_;
+  std::vector<float> cost_;
   std::vector<Index> place_, heap_;
 };
 
