@@ -29,6 +29,7 @@
 #include <surety/internal/operators/disc_edges.h>
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -72,7 +73,8 @@ public:
 
   Verdict check(const Disc& disc) override;
   void commit(const Disc& disc) override;
-  bool is_blocked(const Disc& disc) const override;
+  bool is_blocked(const Disc& disc) override;
+  double growth_needed() const override { return std::sqrt(squared_growth_needed_); }
   Forecast forecast(const Disc& disc) const override;
   void set_stage(double share) override { tolerance_.set_stage(share); }
   std::vector<double> face_bounds() override;
@@ -161,6 +163,14 @@ private:
   std::optional<Inner_item> inner_item(Index face);
   double limit_at(const Inner_item& inner) const;
 
+  /// Whether a distance is within its limit; takes down by how much it is not.
+  bool is_within(double squared_distance, double squared_limit)
+  {
+    if (squared_distance <= squared_limit) return true;
+    squared_growth_needed_ = squared_limit > 0 ? squared_distance / squared_limit : 1;
+    return false;
+  }
+
   /// Infinite where rounding alone exceeds the tolerance, and the limit is negative.
   static double ratio(double squared_distance, double squared_limit)
   {
@@ -234,6 +244,7 @@ private:
   Slot_table seen_faces_;
   // The T vertex that last refused the removal of an M vertex: asked first the next time.
   std::vector<Index> blocker_;
+  double squared_growth_needed_ = 1;
   std::vector<Item> items_;
   Cell_search cells_;
 

@@ -70,6 +70,7 @@ inline Verdict Direct_bound::check(const Disc& disc)
 {
   forget_disc();
   disc_ = &disc;
+  squared_growth_needed_ = 1;
   if (!apex_is_in_range() || !move_vertices()) return Verdict::deviation;
   disc_edges_.assign(disc);
   gather_edges();
@@ -103,7 +104,7 @@ inline double Direct_bound::nearest_face(
   return best;
 }
 
-inline bool Direct_bound::is_blocked(const Disc& disc) const
+inline bool Direct_bound::is_blocked(const Disc& disc)
 {
   if (disc.removed == none) return false;
   const Index v = blocker_[disc.removed];
@@ -111,9 +112,9 @@ inline bool Direct_bound::is_blocked(const Disc& disc) const
   const Index i = disc.position_of_old_face(map_.image(v).id());
   if (i == none) return false;
   Index face = none;
-  return !(
-      nearest_face(disc, reference_.point(v), disc.side_of_place(disc.old_place[i]), face)
-      <= tolerance_.squared_limit(v));
+  return !is_within(
+      nearest_face(disc, reference_.point(v), disc.side_of_place(disc.old_place[i]), face),
+      tolerance_.squared_limit(v));
 }
 
 /// Whether a placed apex lies where rounding is accounted for, and near enough to its pin.
@@ -130,7 +131,8 @@ inline bool Direct_bound::apex_is_in_range() const
 inline bool Direct_bound::move_to_faces(Index v, Side side)
 {
   Index face = none;
-  if (!(nearest_face(*disc_, reference_.point(v), side, face) <= tolerance_.squared_limit(v))) {
+  if (!is_within(
+          nearest_face(*disc_, reference_.point(v), side, face), tolerance_.squared_limit(v))) {
     if (disc_->removed != none) blocker_[disc_->removed] = v;
     return false;
   }
@@ -142,8 +144,9 @@ inline bool Direct_bound::move_to_faces(Index v, Side side)
 inline bool Direct_bound::move_to_ridge(Index v, Index spoke)
 {
   const Vector along = mesh_.point(disc_->ring[spoke]) - disc_->apex_point;
-  if (!(squared_distance_to_segment(reference_.point(v), disc_->apex_point, along)
-        <= tolerance_.squared_limit(v)))
+  if (!is_within(
+          squared_distance_to_segment(reference_.point(v), disc_->apex_point, along),
+          tolerance_.squared_limit(v)))
     return false;
   const Side at_spoke = faces_at_spoke(spoke);
   slot_of_vertex_.insert(v, static_cast<Index>(vertices_.size()));
@@ -366,7 +369,10 @@ inline Verdict Direct_bound::connect_in_closed_fan(Index e, const Stop& from, co
   const Verdict verdict = cross_all(e, from, to, counter_clockwise);
   if (verdict == Verdict::accept) return verdict;
   nodes_.resize(before);
-  return cross_all(e, from, to, !counter_clockwise);
+  const double needed = squared_growth_needed_;
+  const Verdict other = cross_all(e, from, to, !counter_clockwise);
+  squared_growth_needed_ = std::min(needed, squared_growth_needed_);
+  return other;
 }
 
 inline bool Direct_bound::passes_apex_on_left(Index e, double from, double to) const
@@ -402,8 +408,9 @@ inline Verdict Direct_bound::cross(Index e, Index spoke, double low, double high
   const Vector& apex = disc_->apex_point;
   const Vector along = mesh_.point(disc_->ring[spoke]) - apex;
   const double lambda = closest_parameter(a, d, low, high, apex, along);
-  if (!(squared_distance_to_segment(a + lambda * d, apex, along)
-        <= tolerance_.squared_limit(s, t, lambda)))
+  if (!is_within(
+          squared_distance_to_segment(a + lambda * d, apex, along),
+          tolerance_.squared_limit(s, t, lambda)))
     return Verdict::deviation;
   nodes_.push_back({none, disc_->spoke[spoke], lambda});
   return Verdict::accept;

@@ -20,11 +20,15 @@ public:
   virtual void commit(const Disc& disc) = 0;
 
   /// Whether what refused an operation like this one before still does: the cheapest of tests.
-  virtual bool is_blocked(const Disc& disc) const
+  virtual bool is_blocked(const Disc& disc)
   {
     static_cast<void>(disc);
     return false;
   }
+
+  /// For what check() or is_blocked() has just refused for its deviation: the factor by which the
+  /// tolerance must grow, at least, before they can accept it.
+  virtual double growth_needed() const { return 1; }
 
   /// Squared distances before and after an operation, as far as they can be foretold without
   /// checking it: a hint for choosing operations, and no bound.

@@ -82,6 +82,7 @@ public:
   void stop_guard() { guard_.reset(); }
 
   const Working_mesh& mesh() const { return mesh_; }
+  const Deviation_policy& deviation() const { return deviation_; }
   const Operations& operations() const { return operations_; }
 
   /// A time that grows as M changes, and the time when M last changed at a vertex, failed

@@ -11,14 +11,39 @@
 #include <surety/internal/geometric_mesh/vertex_queue.h>
 #include <surety/parameters.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace surety::internal {
 
 /// Told the stage and the share of it that is done; false cancels.
 using Report_progress = std::function<bool(const char* stage, double fraction)>;
+
+/// Until when a collapse stays refused, as long as nothing about it changes: up to a share of the
+/// tolerance, in eighths of an octave, or for good.
+class Refusal
+{
+public:
+  Refusal() = default;
+  static Refusal until(double share)
+  {
+    constexpr double least = -24, most = 7.5;
+    const double octave = std::clamp(std::log2(share), least, most);
+    return Refusal(static_cast<std::uint8_t>(1 + 8 * (octave - least)));
+  }
+
+  bool is_refused() const { return code_ != 0; }
+  bool operator<(Refusal other) const { return code_ < other.code_; }
+
+private:
+  explicit Refusal(std::uint8_t code) : code_(code) {}
+
+  std::uint8_t code_ = 0;
+};
 
 class Greedy
 {
@@ -30,6 +55,7 @@ public:
       const Vector& origin)
     : reference_(reference),
       editor_(editor),
+      deviation_(editor.deviation()),
       mesh_(editor.mesh()),
       walk_(reference),
       origin_(origin),
@@ -38,16 +64,19 @@ public:
       queue_(reference.number_of_vertices()),
       slot_(reference.number_of_vertices(), none),
       best_(reference.number_of_vertices(), none),
-      refused_(2 * std::size_t(reference.number_of_edges()), Refusal::none)
+      refused_(2 * std::size_t(reference.number_of_edges()))
   {
     initialise_quadrics();
   }
 
-  /// Puts all vertices into the queue. What was refused for its distance, before the tolerance
-  /// grew, may be tried again; what was refused for its shape may not.
-  void start()
+  /// Puts all vertices into the queue, for a stage with a share of the tolerance. What was refused
+  /// at a smaller one may be tried again where this one may be enough.
+  void start(double share)
   {
-    std::replace(refused_.begin(), refused_.end(), Refusal::for_distance, Refusal::none);
+    share_ = share;
+    const Refusal enough = Refusal::until(share);
+    for (Refusal& refusal : refused_)
+      if (!(enough < refusal)) refusal = Refusal();
     for (Index v = 0; v < reference_.number_of_vertices(); ++v)
       if (mesh_.is_live_vertex(v)) schedule(v);
   }
@@ -96,14 +125,13 @@ public:
   }
 
 private:
-  /// Why a collapse was refused: for good, as long as nothing changes, or for its distance, which a
-  /// larger tolerance may allow.
-  enum class Refusal : std::uint8_t { none, for_distance, for_good };
-  static Refusal refusal_of(Verdict verdict)
+  /// The factor by which the tolerance must grow, at least, before what was refused can be
+  /// accepted; infinite where that has nothing to do with the tolerance.
+  double growth_needed(Verdict verdict) const
   {
-    const bool depends_on_tolerance
-        = verdict == Verdict::deviation || verdict == Verdict::correspondence;
-    return depends_on_tolerance ? Refusal::for_distance : Refusal::for_good;
+    if (verdict == Verdict::deviation) return deviation_.growth_needed();
+    if (verdict == Verdict::correspondence) return 1;
+    return std::numeric_limits<double>::infinity();
   }
 
   const Vector& origin() const { return origin_; }
@@ -120,15 +148,17 @@ private:
     return on_features ? mesh_.is_feature(mesh_.edge(h)) : true;
   }
   void try_collapse(Index p);
-  bool collapse_with_placement(Index h);
+  Verdict collapse_with_placement(Index h);
 
   const Reference& reference_;
   Editor& editor_;
+  const Deviation_policy& deviation_;
   const Working_mesh& mesh_;
   Surface_walk walk_;
   Vector origin_;             ///< that quadrics are relative to
   const Direct_bound* bound_; ///< with free placement
   bool adds_up_;
+  double share_ = 1; ///< of the tolerance, in this stage
 
   Vertex_queue queue_;
   std::vector<Index> slot_;       ///< of the quadric of a vertex that is there at first
@@ -202,7 +232,7 @@ inline void Greedy::schedule(Index p)
   double least = 0;
   mesh_.for_each_outgoing(p, [&](Index h) {
     const Index q = mesh_.target(h);
-    if (mesh_.is_ghost_vertex(q) || refused_[h] != Refusal::none) return;
+    if (mesh_.is_ghost_vertex(q) || refused_[h].is_refused()) return;
     const double c = cost(h);
     if (best == none || c < least || (c == least && h < best)) best = h, least = c;
   });
@@ -213,20 +243,22 @@ inline void Greedy::schedule(Index p)
     queue_.set(p, adds_up_ ? static_cast<float>(least) : magnitude(least));
 }
 
-inline bool Greedy::collapse_with_placement(Index h)
+/// Tells what refused it last.
+inline Verdict Greedy::collapse_with_placement(Index h)
 {
-  if (!can_be_placed(h)) return false;
   make_placement_disc(mesh_, h, disc_);
   const bool is_on_ridge = disc_.keeps_pin;
   const Vector place = proposal(disc_);
+  Verdict verdict = Verdict::accept;
   for (const double share : {1.0, 0.5, 0.25}) {
     const Vector& still = mesh_.point(disc_.apex);
     disc_.apex_point = is_on_ridge ? Vector(still + share * (place - still)) : place;
     disc_.anchor = walk_.closest(disc_.apex_point, walk_.face_at(mesh_.anchor(disc_.apex))).nearest;
-    if (editor_.try_to(disc_)) return true;
-    if (!is_on_ridge) return false;
+    verdict = editor_.check(disc_);
+    if (verdict == Verdict::accept) editor_.commit(disc_);
+    if (verdict == Verdict::accept || !is_on_ridge) break;
   }
-  return false;
+  return verdict;
 }
 
 /// Where the apex of a placement should go. On a ridge it stays near the vertex of T that it stands
@@ -250,16 +282,23 @@ inline Vector Greedy::proposal(const Disc& disc) const
 inline void Greedy::try_collapse(Index p)
 {
   const Index h = best_[p], q = mesh_.target(h);
-  if (!collapse_with_placement(h)) {
+  double needed = std::numeric_limits<double>::infinity();
+  Verdict verdict = Verdict::feature;
+  if (can_be_placed(h)) {
+    verdict = collapse_with_placement(h);
+    // Where a vertex goes on a ridge depends on the tolerance.
+    needed = disc_.keeps_pin ? 1 : growth_needed(verdict);
+  }
+  if (verdict != Verdict::accept) {
     make_collapse_disc(mesh_, h, disc_);
-    const Verdict verdict = editor_.check(disc_);
-    if (verdict != Verdict::accept) {
-      // Another placement may be found when the tolerance has grown.
-      refused_[h] = can_be_placed(h) ? Refusal::for_distance : refusal_of(verdict);
-      schedule(p);
-      return;
-    }
-    editor_.commit(disc_);
+    verdict = editor_.check(disc_);
+    if (verdict == Verdict::accept) editor_.commit(disc_);
+    needed = std::min(needed, growth_needed(verdict));
+  }
+  if (verdict != Verdict::accept) {
+    refused_[h] = Refusal::until(share_ * needed);
+    schedule(p);
+    return;
   }
   quadrics_[slot_[q]] += quadric(p);
   retry_around(disc_);
@@ -269,7 +308,7 @@ inline void Greedy::retry_around(Index v)
 {
   if (mesh_.is_fixed(v)) return;
   mesh_.for_each_outgoing(v, [&](Index h) {
-    if (h < refused_.size()) refused_[h] = Refusal::none;
+    if (h < refused_.size()) refused_[h] = Refusal();
   });
   // Its turn does not change until it comes: most vertices change many times before.
   if (queue_.contains(v))

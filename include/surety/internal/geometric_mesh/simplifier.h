@@ -110,13 +110,13 @@ private:
   {
     deviation_.set_stage(share);
     edges_swept_at_ = vertices_swept_at_ = 0;
-    return run_collapses(share >= 1 || plan_.flips_in_all_stages)
+    return run_collapses(share, share >= 1 || plan_.flips_in_all_stages)
         && (!with_transactions || run_transactions());
   }
 
-  bool run_collapses(bool with_flips)
+  bool run_collapses(double share, bool with_flips)
   {
-    greedy_.start();
+    greedy_.start(share);
     if (guarding_ == Guarding::late) editor_.stop_guard();
     if (!collapse() || !is_guarded()) return false;
     for (unsigned round = 0; with_flips && round < plan_.flip_rounds && !is_done(); ++round) {
