@@ -49,7 +49,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t largest_value = 32;
+  static constexpr std::size_t largest_value = 24;
   struct Entry {
     void* place;
     std::size_t size;

@@ -113,7 +113,7 @@ private:
   struct Pending_node {
     Index node; ///< `none` while it is not stored
     Index m_edge;
-    double lambda;
+    float lambda;
   };
   /// A place on a T edge and the fan faces that contain its image, consecutive ones.
   struct Stop {

@@ -407,7 +407,8 @@ inline Verdict Direct_bound::cross(Index e, Index spoke, double low, double high
   const Vector d = reference_.point(t) - a;
   const Vector& apex = disc_->apex_point;
   const Vector along = mesh_.point(disc_->ring[spoke]) - apex;
-  const double lambda = closest_parameter(a, d, low, high, apex, along);
+  // Between low and high, which are floats, whichever way it is rounded.
+  const auto lambda = static_cast<float>(closest_parameter(a, d, low, high, apex, along));
   if (!is_within(
           squared_distance_to_segment(a + lambda * d, apex, along),
           tolerance_.squared_limit(s, t, lambda)))

@@ -37,7 +37,7 @@ struct Node {
   Index t_edge, m_edge;
   Index next_on_t;
   Index next_on_m, previous_on_m;
-  double lambda;
+  float lambda; ///< phi is defined by what is stored here: fewer bits are not less exact
 };
 
 class Map
@@ -101,7 +101,7 @@ public:
     set(first, v);
   }
 
-  Index add_node(Index t_edge, Index m_edge, double lambda)
+  Index add_node(Index t_edge, Index m_edge, float lambda)
   {
     Index n = free_;
     if (n == none) {
@@ -128,7 +128,7 @@ public:
     set(free_, n);
   }
   /// Appends a node to T edge `t_edge`, whose last one so far is `last`; returns it.
-  Index append_node(Index t_edge, Index last, Index m_edge, double lambda)
+  Index append_node(Index t_edge, Index last, Index m_edge, float lambda)
   {
     const Index n = add_node(t_edge, m_edge, lambda);
     if (last == none)

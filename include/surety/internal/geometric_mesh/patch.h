@@ -97,7 +97,7 @@ private:
   };
   struct Crossing {
     Index t_edge, m_edge;
-    double lambda;
+    float lambda;
   };
   Operations operations_;
   std::vector<Moved> moved_;
