@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Subdivision and noise.
+// Subdivision, noise and rotations.
 #include "refinement.h"
 
 #include <CGAL/subdivision_method_3.h>
+
+#include <Eigen/Geometry>
 
 #include <random>
 
@@ -62,6 +64,21 @@ void add_noise(Mesh& mesh, double length, unsigned seed)
     const Kernel::Vector_3 shift(random(), random(), random());
     mesh.point(v) = mesh.point(v) + shift;
   }
+}
+
+Mesh rotated(const Mesh& mesh, unsigned seed)
+{
+  std::mt19937 generator(seed);
+  const auto random = [&] { return 2 * generator() / 4294967295.0 - 1; };
+  Eigen::Quaterniond q(random(), random(), random(), random());
+  const Eigen::Matrix3d rotation = q.normalized().toRotationMatrix();
+  Mesh result = mesh;
+  for (const auto v : result.vertices()) {
+    const Point& p = mesh.point(v);
+    const Eigen::Vector3d x = rotation * Eigen::Vector3d(p.x(), p.y(), p.z());
+    result.point(v) = Point(x.x(), x.y(), x.z());
+  }
+  return result;
 }
 
 } // namespace surety::benchmark

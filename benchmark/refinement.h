@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Large meshes made from small ones.
+// Meshes made from others: finer, noisy, turned.
 #ifndef SURETY_BENCHMARK_REFINEMENT_H
 #define SURETY_BENCHMARK_REFINEMENT_H
 
@@ -18,6 +18,9 @@ Mesh smoothed_in_four(const Mesh& mesh);
 
 /// Moves every vertex by a random vector of at most this length along each axis.
 void add_noise(Mesh& mesh, double length, unsigned seed);
+
+/// A copy that is turned about an axis and by an angle that follow from the seed.
+Mesh rotated(const Mesh& mesh, unsigned seed);
 
 } // namespace surety::benchmark
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The one instantiation of make_geometric_mesh.
+// The one instantiation of make_geometric_mesh without threads.
 #include "simplification.h"
 
 #include <surety/geometric_mesh.h>
@@ -32,6 +32,19 @@ void add_quality_options(CLI::App& program, Controls& controls)
   program.add_flag(
       "--allow-self-intersections", controls.allow_self_intersections,
       "Of ours: do not guard against self-intersections, as the peers");
+}
+
+const char* name_of(Effort effort)
+{
+  switch (effort) {
+  case Effort::fast:
+    return "fast";
+  case Effort::standard:
+    return "default";
+  case Effort::best:
+    return "best";
+  }
+  return "";
 }
 
 Certificate simplify(Mesh& mesh, double tolerance, const Controls& controls)

@@ -27,6 +27,9 @@ void add_quality_options(CLI::App& program, Controls& controls);
 /// Adds these, --placement and --effort.
 void add_options(CLI::App& program, Controls& controls);
 
+/// The name of an effort at the command line.
+const char* name_of(Effort effort);
+
 Certificate simplify(Mesh& mesh, double tolerance, const Controls& controls);
 
 } // namespace surety::benchmark

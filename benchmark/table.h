@@ -7,11 +7,20 @@
 #include "child.h"
 
 #include <iostream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace surety::benchmark {
+
+/// A figure in as many digits as it takes.
+inline std::string to_text(double value)
+{
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
 
 class Table
 {

@@ -147,7 +147,7 @@ private:
   Verdict cross_all(Index e, const Stop& from, const Stop& to, bool counter_clockwise);
   bool passes_apex_on_left(Index e, double from, double to) const;
   Verdict cross(Index e, Index spoke, double low, double high);
-  bool stop_at_vertex(Index v, double lambda, Stop& stop) const;
+  bool stop_at_vertex(Index v, float lambda, Stop& stop) const;
   bool stop_at_node(const Pending_node& node, Stop& stop) const;
   bool runs_inside(Index e, Index previous, Index next) const;
 

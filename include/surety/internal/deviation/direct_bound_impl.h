@@ -224,7 +224,7 @@ inline void Direct_bound::gather_edges_of_flip()
     if (reference_.other_end(e, a) == b) gather_edge(e);
 }
 
-inline bool Direct_bound::stop_at_vertex(Index v, double lambda, Stop& stop) const
+inline bool Direct_bound::stop_at_vertex(Index v, float lambda, Stop& stop) const
 {
   const Index slot = slot_of_vertex(v);
   if (slot != none) {
@@ -284,7 +284,7 @@ inline Verdict Direct_bound::route(Index e)
   const auto [s, t] = reference_.vertices_of_edge(e);
   bool through_disc = slot_of_vertex(s) != none;
   Index previous = none; // the node before, none: vertex s
-  const auto join = [&](Index next, double lambda_of_next) {
+  const auto join = [&](Index next, float lambda_of_next) {
     if (!through_disc && (disc_->kind != Disc::Kind::flip || !runs_inside(e, previous, next)))
       return Verdict::accept;
     Stop from, to;
