@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace surety {
@@ -21,6 +22,16 @@ enum class Point_type {
   hyperbolic ///< of opposite signs: saddles
 };
 
+/// From which local fit of the surface a curvature comes, the richer ones first.
+enum class Curvature_fit {
+  quartic,            ///< all terms up to order four
+  cubic,              ///< up to order three
+  quadratic,          ///< up to order two, linear terms included
+  underdetermined,    ///< up to order two, least curvature where the samples leave a choice
+  three_coefficients, ///< second order alone, with the normal taken from the faces
+  none                ///< too few samples: taken for planar
+};
+
 /// \brief Second-order shape of a surface at one side of a vertex.
 ///
 /// Curvatures are in 1/length, derivatives in 1/length^2. They are positive where the surface bends
@@ -30,11 +41,13 @@ struct Side_curvature {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d min_direction = Eigen::Vector3d::Zero();
   Eigen::Vector3d max_direction = Eigen::Vector3d::Zero();
-  double min_curvature = 0;  ///< the smaller one, with its sign
-  double max_curvature = 0;  ///< the larger one, with its sign
-  double min_derivative = 0; ///< of min_curvature along min_direction
-  double max_derivative = 0; ///< of max_curvature along max_direction
+  double min_curvature = 0;      ///< the smaller one, with its sign
+  double max_curvature = 0;      ///< the larger one, with its sign
+  double min_derivative = 0;     ///< of min_curvature along min_direction
+  double max_derivative = 0;     ///< of max_curvature along max_direction
+  double standard_deviation = 0; ///< of the curvatures, as the residuals of the fit tell it
   Point_type type = Point_type::planar;
+  Curvature_fit fit = Curvature_fit::none;
 
   double mean_curvature() const { return (min_curvature + max_curvature) / 2; }
   double gaussian_curvature() const { return min_curvature * max_curvature; }
@@ -51,6 +64,7 @@ struct Curvature_field {
   Sides sides;
   std::vector<Side_curvature> side;   ///< by side
   std::vector<Curve_curvature> curve; ///< by vertex
+  std::size_t fallbacks = 0;          ///< sides with a poorer fit than the method asks for
 };
 
 } // namespace surety

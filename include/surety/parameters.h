@@ -35,6 +35,13 @@ enum class Effort {
   best      ///< and six of them
 };
 
+/// How curvature is estimated from the samples round a vertex.
+enum class Curvature_method {
+  adaptive,          ///< polynomials up to order four over as many rings as the noise asks for
+  five_coefficients, ///< a quadric with linear terms over the first ring
+  three_coefficients ///< the paper's: a quadric without linear terms; does not converge
+};
+
 /// \brief What a visitor is told.
 ///
 /// A visitor has a member function `bool on_progress(const Progress&)`; returning `false` cancels
@@ -67,6 +74,8 @@ struct face_is_constrained_map_t {};
 struct relative_slack_t {};
 struct maximum_subdivisions_t {};
 struct deviation_map_t {};
+struct curvature_method_t {};
+struct noise_floor_t {};
 
 inline constexpr feature_angle_t feature_angle{};
 inline constexpr corner_angle_t corner_angle{};
@@ -87,6 +96,8 @@ inline constexpr face_is_constrained_map_t face_is_constrained_map{};
 inline constexpr relative_slack_t relative_slack{};
 inline constexpr maximum_subdivisions_t maximum_subdivisions{};
 inline constexpr deviation_map_t deviation_map{};
+inline constexpr curvature_method_t curvature_method{};
+inline constexpr noise_floor_t noise_floor{};
 
 // CGAL has a parameter of this name already: the same tag, or the two spellings would set
 // different values.
@@ -109,6 +120,8 @@ constexpr std::size_t target_faces = 0;
 constexpr unsigned stages = 1;
 constexpr double normal_tolerance = 180;
 constexpr double relative_slack = 0.01;
+constexpr Curvature_method curvature_method = Curvature_method::adaptive;
+constexpr double noise_floor = 0;
 } // namespace defaults
 
 } // namespace internal
@@ -179,6 +192,8 @@ public:
   {
     return then<internal::deviation_map_t>(map);
   }
+  auto curvature_method(Curvature_method m) const { return then<internal::curvature_method_t>(m); }
+  auto noise_floor(double length) const { return then<internal::noise_floor_t>(length); }
   /// @}
 
   /// \name CGAL's parameters that this library reads, with their meaning in CGAL
@@ -398,6 +413,22 @@ template <class Map>
 auto deviation_map(const Map& map)
 {
   return Named_parameters<Map, internal::deviation_map_t>(map);
+}
+
+/// \brief How curvature is estimated (`Curvature_method`). Default: `Curvature_method::adaptive`.
+inline auto curvature_method(Curvature_method method)
+{
+  return Named_parameters<Curvature_method, internal::curvature_method_t>(method);
+}
+
+/// \brief Noise that the points have at least: the standard deviation of their distance to the
+/// surface that is meant.
+///
+/// A length in mesh units, not negative (`double`). Default: 0, what the residuals of the fits
+/// tell. A third of the tolerance of a remeshing keeps curvature from being resolved below it.
+inline auto noise_floor(double length)
+{
+  return Named_parameters<double, internal::noise_floor_t>(length);
 }
 
 } // namespace parameters
