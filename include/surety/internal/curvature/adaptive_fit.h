@@ -5,12 +5,15 @@
 #ifndef SURETY_INTERNAL_CURVATURE_ADAPTIVE_FIT_H
 #define SURETY_INTERNAL_CURVATURE_ADAPTIVE_FIT_H
 
+#include <surety/internal/curvature/moments.h>
 #include <surety/internal/curvature/quadric.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace surety::internal::curvature {
 
@@ -19,10 +22,11 @@ namespace surety::internal::curvature {
 /// 1. A fit of the highest order to three rings, weighted by 1/d^2: best on clean meshes. It is
 ///    taken if its curvatures are certain to 1 %.
 /// 2. The same without weights, which is less sensitive to noise.
-/// 3. Else a ladder from flexible fits to rigid ones: orders four, three, two on three rings, then
-///    order two on wider neighbourhoods. A fit is admissible if it agrees with all that are more
-///    flexible, up to their noise; the one of least variance is taken. The first that is not
-///    admissible ends the search: from there on it is shape, not noise, that rigid fits lose.
+/// 3. Else a ladder of neighbourhoods: three, five and eight rings. A level is admissible if its
+///    fit of the highest order agrees with those of all levels before it, up to their noise; the
+///    first that is not ends the search: from there on it is shape, not noise, that wide fits lose.
+///    On the last admissible level a lower order is taken if it is as close to the highest as that
+///    one's own noise.
 class Adaptive_fit
 {
 public:
@@ -44,12 +48,12 @@ public:
     Jet weighted = weighted_fit();
     if (weighted.terms == 0) return std::nullopt;
     if (is_certain(weighted)) return Estimate{weighted, std::sqrt(noise_square_)};
-    const Jet uniform = uniform_fit(weighted.terms);
-    if (uniform.terms == 0) return std::nullopt;
-    if (uniform.terms == weighted.terms && is_certain(weighted))
-      return Estimate{weighted, std::sqrt(noise_square_)};
-    if (is_certain(uniform)) return Estimate{uniform, std::sqrt(noise_square_)};
-    return Estimate{climb(uniform, neighbourhood, frame), std::sqrt(noise_square_)};
+    if (const Jet uniform = uniform_fit(neighbourhood, frame); uniform.terms > 0) {
+      if (is_certain(weighted)) return Estimate{weighted, std::sqrt(noise_square_)};
+      if (is_certain(uniform)) return Estimate{uniform, std::sqrt(noise_square_)};
+      weighted = climb(uniform, neighbourhood, frame);
+    }
+    return Estimate{weighted, std::sqrt(noise_square_)};
   }
 
 private:
@@ -103,20 +107,31 @@ private:
     return jet;
   }
 
-  Jet uniform_fit(int terms)
+  /// The fit without weights, the centre not forced upon it. Its residuals tell the noise.
+  Jet uniform_fit(const Neighbourhood& neighbourhood, const Frame& frame)
   {
-    const int number = samples_.size();
-    for (int i = 0; i < number; ++i) system_.row(i) = samples_.row(i);
-    system_.factor(number);
-    Jet jet;
-    jet.terms = (std::min)(terms, usable_terms(number, system_.rank()));
+    moments_.clear();
+    moments_.add(0, 0, 0);
+    added_ = 0;
+    Jet jet = fit_moments(neighbourhood, frame);
     if (jet.terms == 0) return jet;
-    solve_uniform(system_, jet);
-    const int freedom = number - jet.terms;
-    if (freedom > 0) {
-      const double square = system_.residual(jet.terms) / freedom;
-      set_noise((std::min)(square, weighted_noise_square_));
+    const int freedom = neighbourhood.size() - jet.terms;
+    if (freedom > 0)
+      set_noise((std::min)(moments_.residual(jet.terms) / freedom, weighted_noise_square_));
+    return jet;
+  }
+
+  /// The highest order that the samples allow; no terms if that is none.
+  Jet fit_moments(const Neighbourhood& neighbourhood, const Frame& frame)
+  {
+    const auto& sides = neighbourhood.sides();
+    for (; added_ < sides.size(); ++added_) {
+      const Vector local = frame.to_local(graph_.point_of(sides[added_]));
+      moments_.add(local.x(), local.y(), local.z());
     }
+    Jet jet;
+    jet.terms = usable_terms(neighbourhood.size(), moments_.factor());
+    if (jet.terms > 0) moments_.solve(jet);
     return jet;
   }
 
@@ -140,64 +155,92 @@ private:
     for (std::size_t i = 0; i < 3; ++i) jet.variance[i] += square[i];
   }
 
-  /// The ladder. Its first rung is `flexible`, whose factorisation still is in the system.
-  Jet climb(const Jet& flexible, Neighbourhood& neighbourhood, const Frame& frame)
+  /// \brief The ladder, whose first level is `first`.
+  ///
+  /// On stretched meshes rings are long and thin, and noise hides the curvature across them: balls
+  /// of as many samples take their place, from the first level on.
+  Jet climb(const Jet& first, Neighbourhood& neighbourhood, const Frame& frame)
   {
-    rungs_[0] = flexible;
-    number_of_rungs_ = 1;
-    best_ = 0;
-    for (const int terms : {Jet::cubic, Jet::quadratic}) {
-      if (terms >= flexible.terms) continue;
-      Jet jet;
-      jet.terms = terms;
-      solve_uniform(system_, jet);
-      if (!add_rung(jet)) return rungs_[best_];
-    }
     const bool is_stretched = samples_.elongation() > largest_elongation;
-    for (const int rings : {5, 8}) {
-      const int before = samples_.size();
-      if (is_stretched) {
-        neighbourhood.gather_ball(samples_of_rings(rings));
-      } else {
-        while (neighbourhood.rings() < rings && neighbourhood.add_ring()) {}
-      }
-      samples_.read(graph_, neighbourhood.sides(), frame);
-      if (samples_.size() <= before || !add_rung(fit_quadric(samples_, quadratic_system_))) break;
+    levels_.assign(1, first);
+    Jet result = simplest(first);
+    if (is_stretched) {
+      neighbourhood.grow_ball(samples_of_rings(4));
+      const Jet jet = uniform_fit(neighbourhood, frame);
+      if (jet.terms == 0) return result;
+      levels_.assign(1, jet);
+      result = simplest(jet);
     }
-    return rungs_[best_];
+    for (const int rings : {5, 8}) {
+      if (!widen(neighbourhood, rings, is_stretched)) break;
+      const Jet jet = fit_moments(neighbourhood, frame);
+      if (jet.terms == 0 || !is_admissible(jet)) break;
+      levels_.push_back(jet);
+      result = simplest(jet);
+    }
+    return result;
+  }
+
+  /// False if no sample was added.
+  static bool widen(Neighbourhood& neighbourhood, int rings, bool is_stretched)
+  {
+    const int before = neighbourhood.size();
+    if (is_stretched) {
+      neighbourhood.grow_ball(samples_of_rings(rings));
+    } else {
+      while (neighbourhood.rings() < rings && neighbourhood.add_ring()) {}
+    }
+    return neighbourhood.size() > before;
   }
 
   /// As many as that many rings have on a regular mesh.
   static int samples_of_rings(int rings) { return 3 * rings * (rings + 1); }
 
-  /// False if the jet disagrees with a more flexible one by more than that one's noise explains.
-  bool add_rung(const Jet& jet)
+  /// Whether a jet lies within so many standard deviations of another.
+  bool agrees(const Jet& jet, const Jet& other, double deviations) const
   {
-    if (jet.terms == 0) return false;
-    for (std::size_t r = 0; r < number_of_rungs_; ++r) {
-      for (int i = 0; i < 3; ++i) {
-        const double difference = jet.second_order(i) - rungs_[r].second_order(i);
-        const double deviation = std::sqrt(noise_square_ * rungs_[r].variance[std::size_t(i)]);
-        if (std::abs(difference) > agreement * deviation) return false;
-      }
+    for (int i = 0; i < 3; ++i) {
+      const double variance = noise_square_ * other.variance[std::size_t(i)];
+      const double difference = jet.second_order(i) - other.second_order(i);
+      if (std::abs(difference) > deviations * std::sqrt(variance)) return false;
     }
-    rungs_[number_of_rungs_] = jet;
-    if (jet.total_variance() < rungs_[best_].total_variance()) best_ = number_of_rungs_;
-    ++number_of_rungs_;
     return true;
+  }
+
+  bool is_admissible(const Jet& jet) const
+  {
+    return std::all_of(levels_.begin(), levels_.end(), [&](const Jet& level) {
+      return agrees(jet, level, agreement_of_levels);
+    });
+  }
+
+  /// The least order of a level that agrees with its highest.
+  Jet simplest(const Jet& highest) const
+  {
+    Jet result = highest;
+    for (const int terms : {Jet::cubic, Jet::quadratic}) {
+      if (terms >= highest.terms) continue;
+      Jet jet;
+      jet.terms = terms;
+      moments_.solve(jet);
+      if (!agrees(jet, highest, agreement_of_orders)) break;
+      if (jet.total_variance() < result.total_variance()) result = jet;
+    }
+    return result;
   }
 
   static constexpr int enough_samples = 24;
   static constexpr double certainty = 0.01;
-  static constexpr double agreement = 2.5;
+  static constexpr double agreement_of_levels = 3;
+  static constexpr double agreement_of_orders = 1;
   static constexpr double largest_elongation = 9; ///< of moments: three to one in length
 
   const Side_graph& graph_;
   Samples samples_;
   Quartic_system system_;
-  Quadratic_system quadratic_system_;
-  std::array<Jet, 5> rungs_;
-  std::size_t number_of_rungs_ = 0, best_ = 0;
+  Moments moments_;
+  std::size_t added_ = 0;   ///< number of samples in the moments
+  std::vector<Jet> levels_; ///< admissible ones
   double floor_ = 0, noise_square_ = 0, weighted_noise_square_ = 0;
 };
 

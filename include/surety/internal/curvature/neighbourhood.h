@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -85,35 +86,39 @@ public:
     return sides_.size() > end;
   }
 
-  /// Starts again, with the `number` samples that are nearest in space among those that can be
-  /// reached through nearer ones.
-  void gather_ball(int number)
+  /// \brief Grows, nearest in space first, until there are `number` samples or no more.
+  ///
+  /// Begins anew the first time, and goes on from there.
+  void grow_ball(int number)
   {
-    start(centre_, normal_);
-    queue_.clear();
-    const Vector& p = graph_.point_of(centre_);
-    const auto farther = [](const auto& a, const auto& b) { return b < a; };
-    const auto push_new = [&](std::size_t first) {
-      for (std::size_t i = first; i < sides_.size(); ++i) {
-        queue_.push_back({(graph_.point_of(sides_[i]) - p).squaredNorm(), sides_[i]});
-        std::push_heap(queue_.begin(), queue_.end(), farther);
-      }
-      sides_.resize(first);
-    };
-    visit(centre_);
-    push_new(0);
+    if (rings_ > 0 || sides_.empty()) {
+      start(centre_, normal_);
+      queue_.clear();
+      expand(centre_);
+    }
     while (!queue_.empty() && size() < number) {
-      std::pop_heap(queue_.begin(), queue_.end(), farther);
+      std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
       const Index side = queue_.back().second;
       queue_.pop_back();
       sides_.push_back(side);
-      const std::size_t end = sides_.size();
-      visit(side);
-      push_new(end);
+      expand(side);
     }
   }
 
 private:
+  /// Queues what is next to a side.
+  void expand(Index side)
+  {
+    const Vector& p = graph_.point_of(centre_);
+    const std::size_t end = sides_.size();
+    visit(side);
+    for (std::size_t i = end; i < sides_.size(); ++i) {
+      queue_.push_back({(graph_.point_of(sides_[i]) - p).squaredNorm(), sides_[i]});
+      std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
+    }
+    sides_.resize(end);
+  }
+
   bool is_full() const { return seen_.is_full() || sides_.size() == maximum_samples; }
 
   /// Of a vertex with very many neighbours every so many-th is taken, so that no vertex costs more
