@@ -25,8 +25,8 @@ namespace surety::internal::curvature {
 /// 3. Else a ladder of neighbourhoods: three, five and eight rings. A level is admissible if its
 ///    fit of the highest order agrees with those of all levels before it, up to their noise; the
 ///    first that is not ends the search: from there on it is shape, not noise, that wide fits lose.
-///    On the last admissible level a lower order is taken if it is as close to the highest as that
-///    one's own noise.
+///    On the last admissible level a lower order is taken if it differs from the highest by no more
+///    than one and a half times that one's own noise.
 class Adaptive_fit
 {
 public:
@@ -231,8 +231,8 @@ private:
 
   static constexpr int enough_samples = 24;
   static constexpr double certainty = 0.01;
-  static constexpr double agreement_of_levels = 3;
-  static constexpr double agreement_of_orders = 1;
+  static constexpr double agreement_of_levels = 4;
+  static constexpr double agreement_of_orders = 1.5;
   static constexpr double largest_elongation = 9; ///< of moments: three to one in length
 
   const Side_graph& graph_;
