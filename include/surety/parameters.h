@@ -42,6 +42,21 @@ enum class Curvature_method {
   three_coefficients ///< the paper's: a quadric without linear terms; does not converge
 };
 
+/// What the size of a metric depends on.
+enum class Metric_kind {
+  isotropic,  ///< the place: one size for all directions
+  anisotropic ///< place and direction: one size along each principal direction of the surface
+};
+
+/// How the length of an edge in a metric follows from what is known at its ends.
+enum class Length_rule {
+  linear_size,      ///< the size along the edge is linear; in closed form
+  simpson,          ///< Simpson's rule with the inverse square root of the tensor linear
+  trapezoid,        ///< mean of the lengths in the metrics of both ends
+  end_only,         ///< the metric of the first end, equation (21) of the paper
+  logarithmic_mean, ///< the size is in geometric progression, equation (22), in closed form
+};
+
 /// \brief What a visitor is told.
 ///
 /// A visitor has a member function `bool on_progress(const Progress&)`; returning `false` cancels
@@ -76,6 +91,18 @@ struct maximum_subdivisions_t {};
 struct deviation_map_t {};
 struct curvature_method_t {};
 struct noise_floor_t {};
+struct metric_kind_t {};
+struct metric_tolerance_t {};
+struct relative_gap_t {};
+struct turning_angle_t {};
+struct gap_constant_t {};
+struct minimum_size_t {};
+struct maximum_size_t {};
+struct maximum_aspect_ratio_t {};
+struct size_field_t {};
+struct length_rule_t {};
+struct gradation_t {};
+struct smoothing_rounds_t {};
 
 inline constexpr feature_angle_t feature_angle{};
 inline constexpr corner_angle_t corner_angle{};
@@ -98,6 +125,18 @@ inline constexpr maximum_subdivisions_t maximum_subdivisions{};
 inline constexpr deviation_map_t deviation_map{};
 inline constexpr curvature_method_t curvature_method{};
 inline constexpr noise_floor_t noise_floor{};
+inline constexpr metric_kind_t metric_kind{};
+inline constexpr metric_tolerance_t metric_tolerance{};
+inline constexpr relative_gap_t relative_gap{};
+inline constexpr turning_angle_t turning_angle{};
+inline constexpr gap_constant_t gap_constant{};
+inline constexpr minimum_size_t minimum_size{};
+inline constexpr maximum_size_t maximum_size{};
+inline constexpr maximum_aspect_ratio_t maximum_aspect_ratio{};
+inline constexpr size_field_t size_field{};
+inline constexpr length_rule_t length_rule{};
+inline constexpr gradation_t gradation{};
+inline constexpr smoothing_rounds_t smoothing_rounds{};
 
 // CGAL has a parameter of this name already: the same tag, or the two spellings would set
 // different values.
@@ -122,6 +161,11 @@ constexpr double normal_tolerance = 180;
 constexpr double relative_slack = 0.01;
 constexpr Curvature_method curvature_method = Curvature_method::adaptive;
 constexpr double noise_floor = 0;
+constexpr Metric_kind metric_kind = Metric_kind::anisotropic;
+constexpr double maximum_aspect_ratio = 10;
+constexpr Length_rule length_rule = Length_rule::linear_size;
+constexpr double gradation = 1.3;
+constexpr unsigned smoothing_rounds = 0;
 } // namespace defaults
 
 } // namespace internal
@@ -194,6 +238,28 @@ public:
   }
   auto curvature_method(Curvature_method m) const { return then<internal::curvature_method_t>(m); }
   auto noise_floor(double length) const { return then<internal::noise_floor_t>(length); }
+  auto metric_kind(Metric_kind kind) const { return then<internal::metric_kind_t>(kind); }
+  auto metric_tolerance(double length) const { return then<internal::metric_tolerance_t>(length); }
+  auto relative_gap(double fraction) const { return then<internal::relative_gap_t>(fraction); }
+  auto turning_angle(double degrees) const { return then<internal::turning_angle_t>(degrees); }
+  auto gap_constant(double constant) const { return then<internal::gap_constant_t>(constant); }
+  auto minimum_size(double size) const { return then<internal::minimum_size_t>(size); }
+  auto maximum_size(double size) const { return then<internal::maximum_size_t>(size); }
+  auto maximum_aspect_ratio(double ratio) const
+  {
+    return then<internal::maximum_aspect_ratio_t>(ratio);
+  }
+  template <class Field>
+  auto size_field(const Field& field) const
+  {
+    return then<internal::size_field_t>(field);
+  }
+  auto length_rule(Length_rule rule) const { return then<internal::length_rule_t>(rule); }
+  auto gradation(double beta) const { return then<internal::gradation_t>(beta); }
+  auto smoothing_rounds(unsigned rounds) const
+  {
+    return then<internal::smoothing_rounds_t>(rounds);
+  }
   /// @}
 
   /// \name CGAL's parameters that this library reads, with their meaning in CGAL
@@ -429,6 +495,110 @@ inline auto curvature_method(Curvature_method method)
 inline auto noise_floor(double length)
 {
   return Named_parameters<double, internal::noise_floor_t>(length);
+}
+
+/// \brief Whether the sizes of a metric depend on direction (`Metric_kind`). Default:
+/// `Metric_kind::anisotropic`.
+inline auto metric_kind(Metric_kind kind)
+{
+  return Named_parameters<Metric_kind, internal::metric_kind_t>(kind);
+}
+
+/// \brief How far a face of the size that a metric asks for may lie from the surface.
+///
+/// A length in mesh units, greater than 0 (`double`). Default: none; see `relative_gap` and
+/// `turning_angle`.
+inline auto metric_tolerance(double length)
+{
+  return Named_parameters<double, internal::metric_tolerance_t>(length);
+}
+
+/// \brief How far a face of the size that a metric asks for may lie from the surface, relative to
+/// the radius of curvature.
+///
+/// A fraction, greater than 0, at most 1 (`double`): eps of section 3.3 of the paper. Default:
+/// none.
+inline auto relative_gap(double fraction)
+{
+  return Named_parameters<double, internal::relative_gap_t>(fraction);
+}
+
+/// \brief By how much the normal of the surface may turn along an edge of the size that a metric
+/// asks for.
+///
+/// In degrees, greater than 0, at most 180 (`double`). Default: none.
+inline auto turning_angle(double degrees)
+{
+  return Named_parameters<double, internal::turning_angle_t>(degrees);
+}
+
+/// \brief The gap of a face of size h on a surface of curvature k, as a multiple of k h^2.
+///
+/// A number greater than 0 (`double`). Default: what holds for every equilateral triangle, from 1/8
+/// where the surface is curved one way or like a saddle to 1/6 where it is like a sphere. The
+/// chord's constant, which the paper uses, is 1/8; less lets faces be larger than the tolerance
+/// alone would.
+inline auto gap_constant(double constant)
+{
+  return Named_parameters<double, internal::gap_constant_t>(constant);
+}
+
+/// \brief The size that a metric does not go below, whatever the curvature.
+///
+/// A length in mesh units, greater than 0 (`double`). Default: set by the function that reads it.
+inline auto minimum_size(double size)
+{
+  return Named_parameters<double, internal::minimum_size_t>(size);
+}
+
+/// \brief The size that a metric does not exceed, however flat the surface.
+///
+/// A length in mesh units, greater than 0 (`double`). Default: a tenth of the diagonal of the
+/// bounding box.
+inline auto maximum_size(double size)
+{
+  return Named_parameters<double, internal::maximum_size_t>(size);
+}
+
+/// \brief Largest ratio of the two sizes of an anisotropic metric at one place.
+///
+/// A ratio, at least 1 (`double`); infinity turns the limit off. Default: 10.
+inline auto maximum_aspect_ratio(double ratio)
+{
+  return Named_parameters<double, internal::maximum_aspect_ratio_t>(ratio);
+}
+
+/// \brief Sizes that the user asks for.
+///
+/// A function from points, or a readable property map from vertex descriptors, to a size (`double`,
+/// in mesh units) or to a tensor (`Eigen::Matrix3d`); or a `Medit_solution`. Default: none.
+template <class Field>
+auto size_field(const Field& field)
+{
+  return Named_parameters<Field, internal::size_field_t>(field);
+}
+
+/// \brief How the metric between the ends of an edge is interpolated (`Length_rule`). Default:
+/// `Length_rule::linear_size`.
+inline auto length_rule(Length_rule rule)
+{
+  return Named_parameters<Length_rule, internal::length_rule_t>(rule);
+}
+
+/// \brief By which factor sizes may grow along an edge of unit length.
+///
+/// A ratio, at least 1, which makes sizes uniform; infinity lets them jump (`double`).
+/// Default: 1.3.
+inline auto gradation(double beta) { return Named_parameters<double, internal::gradation_t>(beta); }
+
+/// \brief How often the tensors of a metric are averaged with their neighbours before its gradation
+/// is limited.
+///
+/// A number of rounds (`unsigned`). Default: 0, because an average may be larger than what was
+/// asked for. Two to four rounds save the anisotropy of noisy tensors. Isotropic metrics ignore it.
+inline auto smoothing_rounds(unsigned rounds)
+{
+  return Named_parameters<unsigned, internal::smoothing_rounds_t>(rounds);
 }
 
 } // namespace parameters
