@@ -28,8 +28,8 @@ namespace surety::internal::metric {
 
 struct Located_face {
   std::array<Vector, 3> corner;
-  Vector normal;
-  std::uint32_t id;
+  Vector normal = Vector::Zero(); ///< of unit length; the locator computes it
+  std::uint32_t id = 0;
 };
 
 /// The point of a face nearest to another one, by the weights of the corners.
@@ -106,6 +106,8 @@ class Face_locator
   class Search
   {
   public:
+    using Priority = double;
+
     Search(const Vector& point, const Vector& normal) : point_(point), normal_(normal) {}
 
     bool go_further() const { return true; }
@@ -128,7 +130,7 @@ class Face_locator
 
     /// Nearer boxes first.
     template <class Node>
-    std::pair<bool, double> do_intersect_with_priority(const Point&, const Node& node) const
+    std::pair<bool, Priority> do_intersect_with_priority(const Point&, const Node& node) const
     {
       const double squared = squared_distance(node);
       return {squared <= best.squared_distance, -squared};
