@@ -25,6 +25,8 @@ using CGAL::parameters::get_parameter;
 using CGAL::parameters::get_parameter_reference;
 using surety::Deviation_bound;
 using surety::Effort;
+using surety::Length_rule;
+using surety::Metric_kind;
 using surety::Placement;
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -57,7 +59,19 @@ auto full_chain()
       .single_precision(true)
       .relative_slack(0.25)
       .maximum_subdivisions(12345)
-      .deviation_map(3.5f);
+      .deviation_map(3.5f)
+      .metric_kind(Metric_kind::isotropic)
+      .metric_tolerance(0.5)
+      .relative_gap(0.125)
+      .turning_angle(15)
+      .gap_constant(0.25)
+      .minimum_size(0.01)
+      .maximum_size(2.5)
+      .maximum_aspect_ratio(7)
+      .size_field(4.5f)
+      .length_rule(Length_rule::simpson)
+      .gradation(1.75)
+      .smoothing_rounds(6u);
 }
 
 template <class Np>
@@ -81,6 +95,18 @@ void expect_full_chain(const Np& np)
   EXPECT_EQ(choose_parameter(get_parameter(np, tag::relative_slack), 0.01), 0.25);
   EXPECT_EQ(choose_parameter(get_parameter(np, tag::maximum_subdivisions), std::size_t(1)), 12345u);
   EXPECT_EQ(get_parameter(np, tag::deviation_map), 3.5f);
+  EXPECT_EQ(get_parameter(np, tag::metric_kind), Metric_kind::isotropic);
+  EXPECT_EQ(get_parameter(np, tag::metric_tolerance), 0.5);
+  EXPECT_EQ(get_parameter(np, tag::relative_gap), 0.125);
+  EXPECT_EQ(get_parameter(np, tag::turning_angle), 15);
+  EXPECT_EQ(get_parameter(np, tag::gap_constant), 0.25);
+  EXPECT_EQ(get_parameter(np, tag::minimum_size), 0.01);
+  EXPECT_EQ(get_parameter(np, tag::maximum_size), 2.5);
+  EXPECT_EQ(get_parameter(np, tag::maximum_aspect_ratio), 7);
+  EXPECT_EQ(get_parameter(np, tag::size_field), 4.5f);
+  EXPECT_EQ(get_parameter(np, tag::length_rule), Length_rule::simpson);
+  EXPECT_EQ(get_parameter(np, tag::gradation), 1.75);
+  EXPECT_EQ(get_parameter(np, tag::smoothing_rounds), 6u);
 }
 
 TEST(Parameters, each_of_a_chain_is_read_back) { expect_full_chain(full_chain()); }
@@ -104,6 +130,21 @@ TEST(Parameters, each_can_start_a_chain)
   EXPECT_EQ(get_parameter(p::relative_slack(0.25), tag::relative_slack), 0.25);
   EXPECT_EQ(get_parameter(p::maximum_subdivisions(9), tag::maximum_subdivisions), 9u);
   EXPECT_EQ(get_parameter(p::deviation_map(3.5f), tag::deviation_map), 3.5f);
+  EXPECT_EQ(
+      get_parameter(p::metric_kind(Metric_kind::isotropic), tag::metric_kind),
+      Metric_kind::isotropic);
+  EXPECT_EQ(get_parameter(p::metric_tolerance(0.5), tag::metric_tolerance), 0.5);
+  EXPECT_EQ(get_parameter(p::relative_gap(0.125), tag::relative_gap), 0.125);
+  EXPECT_EQ(get_parameter(p::turning_angle(15), tag::turning_angle), 15);
+  EXPECT_EQ(get_parameter(p::gap_constant(0.25), tag::gap_constant), 0.25);
+  EXPECT_EQ(get_parameter(p::minimum_size(0.01), tag::minimum_size), 0.01);
+  EXPECT_EQ(get_parameter(p::maximum_size(2.5), tag::maximum_size), 2.5);
+  EXPECT_EQ(get_parameter(p::maximum_aspect_ratio(7), tag::maximum_aspect_ratio), 7);
+  EXPECT_EQ(get_parameter(p::size_field(4.5f), tag::size_field), 4.5f);
+  EXPECT_EQ(
+      get_parameter(p::length_rule(Length_rule::simpson), tag::length_rule), Length_rule::simpson);
+  EXPECT_EQ(get_parameter(p::gradation(1.75), tag::gradation), 1.75);
+  EXPECT_EQ(get_parameter(p::smoothing_rounds(6u), tag::smoothing_rounds), 6u);
 }
 
 TEST(Parameters, chains_go_on_in_any_order_after_cgal_members)
