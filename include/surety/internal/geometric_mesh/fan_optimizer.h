@@ -75,7 +75,10 @@ public:
   }
 
   /// Puts the apex of the disc to a better place, starting from a given one; tells the objective.
-  double optimize(Disc& disc, const Vector& start, Objective objective)
+  /// What comes too slowly to a goal is given up.
+  double optimize(
+      Disc& disc, const Vector& start, Objective objective,
+      double goal = std::numeric_limits<double>::infinity())
   {
     Vector best = start;
     Foot best_foot;
@@ -86,12 +89,12 @@ public:
          ++evaluations) {
       Vector next = best + factor * step;
       Foot foot = best_foot;
-      const double value = evaluate(next, foot, objective);
+      const double value = evaluate(next, foot, objective, least);
       if (!(value < least)) {
         factor /= 2;
         continue;
       }
-      const bool settled = value > 0.995 * least;
+      const bool settled = value > (value > goal ? 0.9 : 0.995) * least;
       best = next, best_foot = foot, least = value;
       if (settled) break;
       step = newton_step(best_foot);
@@ -153,7 +156,10 @@ private:
     return nearest;
   }
 
-  double evaluate(Vector& w, Foot& foot, Objective objective)
+  /// Ends early, with any value that is not less, where the objective is not less than `least`.
+  double evaluate(
+      Vector& w, Foot& foot, Objective objective,
+      double least = std::numeric_limits<double>::infinity())
   {
     foot = walk_.closest(w, foot.face != none ? foot.face : start_face_);
     if (on_surface_) w = foot.point;
@@ -163,18 +169,27 @@ private:
     apex_ratio_ = on_surface_
         ? 0
         : apex_residual_.squaredNorm() / bound_.tolerance().squared_limit(foot.nearest);
-    double largest = apex_ratio_, sum = 0;
-    for (Sample& sample : samples_) {
+    double largest = apex_ratio_;
+    double sum = apex_share * static_cast<double>(samples_.size()) * eighth_power(apex_ratio_);
+    std::size_t worst = 0;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      Sample& sample = samples_[i];
       measure(sample, w);
-      largest = std::max(largest, sample.ratio);
-      const double fourth = sample.ratio * sample.ratio;
-      sum += fourth * fourth;
+      if (sample.ratio > largest) largest = sample.ratio, worst = i;
+      sum += eighth_power(sample.ratio);
+      if ((objective == Objective::largest ? largest : sum) >= least) break;
     }
+    // What is worst here will most likely be first to tell that a place nearby is no better.
+    if (worst > 0) std::swap(samples_[0], samples_[worst]);
     largest_ = largest;
     objective_ = objective;
-    if (objective == Objective::largest) return largest;
-    const double fourth = apex_ratio_ * apex_ratio_;
-    return sum + apex_share * static_cast<double>(samples_.size()) * fourth * fourth;
+    return objective == Objective::largest ? largest : sum;
+  }
+  /// Of the distance, from its square.
+  static double eighth_power(double squared)
+  {
+    const double fourth = squared * squared;
+    return fourth * fourth;
   }
 
   /// Follows the closest point from face to face while it lies on a spoke.

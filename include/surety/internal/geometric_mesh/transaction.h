@@ -52,7 +52,7 @@ public:
       if (e % 4096 == 0 && !report("predict", double(e) / mesh_.number_of_real_edges()))
         return false;
       if (!is_eligible(e) || has_failed(e, overshoot)) continue;
-      const double predicted = predict(e);
+      const double predicted = predict(e, overshoot);
       if (predicted <= overshoot * overshoot)
         candidates.push_back({predicted, e});
       else
@@ -102,18 +102,19 @@ private:
   }
 
   /// The largest ratio, squared, that the collapse of an edge would leave; the place is in disc_.
-  double predict(Index e)
+  double predict(Index e, double overshoot)
   {
     const Index h = mesh_.halfedge(e);
     make_placement_disc(mesh_, h, disc_);
     if (mesh_.is_feature(e) && !disc_.keeps_pin) return std::numeric_limits<double>::infinity();
     optimizer_.look_at(disc_);
-    return optimizer_.optimize(disc_, greedy_.proposal(disc_), Objective::largest);
+    return optimizer_.optimize(
+        disc_, greedy_.proposal(disc_), Objective::largest, overshoot * overshoot);
   }
 
   bool collapse(Index e, double overshoot)
   {
-    if (!(predict(e) <= overshoot * overshoot)) return false;
+    if (!(predict(e, overshoot) <= overshoot * overshoot)) return false;
     const Index p = disc_.removed, q = disc_.apex;
     overshoot_ = overshoot;
     bound_.overshoot(overshoot);
@@ -143,7 +144,7 @@ private:
     for (int sweep = 0; sweep <= most_sweeps; ++sweep) {
       const double ratio = largest_ratio_of_set();
       if (ratio <= 1) return true;
-      if (sweep == most_sweeps || (sweep >= 2 && is_hopeless(before, ratio, most_sweeps - sweep)))
+      if (sweep == most_sweeps || (sweep >= 1 && is_hopeless(before, ratio, most_sweeps - sweep)))
         return false;
       before = ratio;
       for (const Index v : set_) {
