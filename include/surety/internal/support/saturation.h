@@ -9,6 +9,7 @@
 
 #include <surety/internal/support/evaluation.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -51,11 +52,26 @@ public:
     jet.ww = second(w, w, dw, dw, jet.ww);
   }
 
-  /// \brief A bound of |D2 F[e, e]|/|e|^2.
+  /// How much F may shorten and bend, for displacements in a range of lengths.
+  struct Bounds {
+    double first;  ///< of |DF[e]|/|e|
+    double second; ///< of |D2 F[e, e]|/|e|^2
+  };
+
+  /// \brief The radial part of DF is f' <= f/r and the tangential one f/r <= L/r, at most 1.
   ///
-  /// With m = |f' - f/r|/r <= 1/a, the radial and tangential parts add up to at most |f''| + 2m,
-  /// and |f''| = 3 z (1 + z^2)^(-5/2)/b <= 0.86/b.
-  double second_derivative() const { return 0.86 / room_ + 2 / start_; }
+  /// With m = |f' - f/r|/r <= L/r^2, the two parts of D2 F add up to at most |f''| + 2m, where
+  /// |f''| = 3 z (1 + z^2)^(-5/2)/b grows up to z = 1/2, to less than 0.86/b, and falls from there.
+  Bounds bounds(double least_length, double largest_length) const
+  {
+    if (largest_length <= start_) return {1, 0};
+    const double r = (std::max)(least_length, start_), limit = start_ + room_;
+    const double z = (r - start_) / room_, q = 1 + z * z;
+    const double f2 = z < 0.5 ? 0.86 : 3 * z / (q * q * std::sqrt(q));
+    return {
+        least_length > start_ ? (std::min)(1., limit / r) : 1,
+        (f2 / room_ + 2 * limit / (r * r)) * (1 + 0x1p-40)};
+  }
 
 private:
   /// F(d) = ratio d; slope and bend are the derivatives of ratio and slope by |d|^2/2.

@@ -23,7 +23,7 @@ public:
     : mesh_(std::move(mesh)), net_(shape.net), saturation_(limit), limit_(limit)
   {
     reach_.assign(mesh_.faces(), 0);
-    bending_.assign(mesh_.faces(), 0);
+    derivatives_.assign(mesh_.faces(), {});
     for (Index f = 0; f < mesh_.faces(); ++f) {
       if (mesh_.is_face(f)) set_bounds(f);
     }
@@ -37,8 +37,8 @@ public:
   double reach(Index f) const { return (std::min)(reach_[f], limit_); }
   /// Whether a displacement of this face may be larger than the start of saturation.
   bool may_saturate(Index f) const { return reach_[f] > saturation_.start(); }
-  /// Bounds the second derivatives along directions inside the triangle.
-  double bending(Index f) const { return bending_[f]; }
+  /// Bounds the change of displacements along directions inside the triangle.
+  const Derivative_bounds& derivative_bounds(Index f) const { return derivatives_[f]; }
 
   Vector flat_point(Index f, const Vector& barycentric) const
   {
@@ -47,10 +47,15 @@ public:
         + barycentric[2] * mesh_.point[c[2]];
   }
 
+  /// Before saturation.
+  Vector displacement(Index f, const Vector& barycentric) const
+  {
+    return Patch_weights(barycentric).point(net_[f]);
+  }
+
   Vector point(Index f, const Vector& barycentric) const
   {
-    const Vector d = Patch_weights(barycentric).point(net_[f]);
-    return flat_point(f, barycentric) + saturation_(d);
+    return flat_point(f, barycentric) + saturation_(displacement(f, barycentric));
   }
 
   Jet first_order(Index f, const Vector& barycentric) const { return jet(f, barycentric, false); }
@@ -83,16 +88,13 @@ private:
   void set_bounds(Index f)
   {
     reach_[f] = displacement_bound(net_[f]);
-    const Derivative_bounds bounds = Mean_net(net_[f]).bounds();
-    bending_[f] = bounds.second;
-    if (may_saturate(f))
-      bending_[f] += saturation_.second_derivative() * bounds.first * bounds.first;
+    derivatives_[f] = Mean_net(net_[f]).bounds();
   }
 
   Flat_mesh mesh_;
-  std::vector<Control_net> net_; // by face
-  std::vector<double> reach_;    // by face: before saturation
-  std::vector<double> bending_;  // by face
+  std::vector<Control_net> net_;               // by face
+  std::vector<double> reach_;                  // by face: before saturation
+  std::vector<Derivative_bounds> derivatives_; // by face: of displacements before saturation
   Saturation saturation_;
   double limit_;
 };
