@@ -59,7 +59,10 @@ inline std::array<Vector, 2> inner_cross_derivatives(
   const Vector w1 = data.chord[i] - w0 - w2;
   const Vector a0 = unit(data.normal[i].cross(w0)),
                a2 = unit(data.normal[next_corner(i)].cross(w2));
-  const Vector a1 = unit(a0 + a2);
+  // In the middle A is (a0 + 2 a1 + a2)/4; it is made perpendicular to the normal there.
+  Vector a1 = unit(a0 + a2);
+  const Vector& m = data.curve[i].middle_normal;
+  a1 -= (a0 + 2 * a1 + a2).dot(m) / 2 * m;
   const double lambda0 = d0.dot(w0) / w0.squaredNorm(), lambda1 = d3.dot(w2) / w2.squaredNorm();
   const double mu0 = d0.dot(a0), mu1 = d3.dot(a2);
   return {

@@ -22,8 +22,10 @@ struct Edge_curve {
   Vector start = Vector::Zero();
   Vector end = Vector::Zero();
   bool is_straight = true;
+  /// That the surface should have in the middle; zero where only the ends are known.
+  Vector middle_normal = Vector::Zero();
 
-  Edge_curve reversed() const { return {-end, -start, is_straight}; }
+  Edge_curve reversed() const { return {-end, -start, is_straight, middle_normal}; }
 
   /// What the three inner points of the quartic add to the even division of the chord.
   std::array<Vector, 3> displacements(const Vector& chord) const
@@ -39,7 +41,7 @@ inline Edge_curve curve_between(double d, const Vector& t0, const Vector& t1)
 {
   const double cosine = std::clamp(t0.dot(t1), -0.9, 1.0);
   const double arm = 2 * d / (3 * (1 + std::sqrt((1 + cosine) / 2)));
-  return {arm * t0, arm * t1, false};
+  return {arm * t0, arm * t1, false, Vector::Zero()};
 }
 
 /// The direction of a chord in the plane normal to n; zero where it has none.

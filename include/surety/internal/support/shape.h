@@ -10,6 +10,7 @@
 #include <surety/internal/support/control_net.h>
 #include <surety/internal/support/feature_tangents.h>
 #include <surety/internal/support/flat_mesh.h>
+#include <surety/internal/support/middle_normal.h>
 
 #include <algorithm>
 #include <array>
@@ -87,7 +88,23 @@ private:
     // Normals that oppose each other, or a tangent across the chord: no curve is right.
     if (!is_feature && !(n0.dot(n1) > 0)) return {};
     if (!(t0.dot(direction) > least_advance) || !(t1.dot(direction) > least_advance)) return {};
-    return curve_between(length, t0, t1);
+    Edge_curve result = curve_between(length, t0, t1);
+    if (!is_feature) result.middle_normal = middle_normal(mesh, e);
+    return result;
+  }
+
+  /// Of an edge with two faces on one side of all features.
+  Vector middle_normal(const Flat_mesh& mesh, Index e) const
+  {
+    const auto [one, other] = mesh.places[e];
+    const Index f = one / 3, g = other / 3;
+    const int i = int(one % 3), j = int(other % 3);
+    const Vector middle = (mesh.position(f, i) + mesh.position(f, next_corner(i))) / 2;
+    const auto seen = [&](Index face, int k) {
+      return Seen_vertex{mesh.position(face, k) - middle, normal[mesh.side[face][k]]};
+    };
+    return Middle_normal(seen(f, i), seen(f, next_corner(i)))
+        .with(seen(f, previous_corner(i)), seen(g, previous_corner(j)));
   }
 
   /// In rounds, so that the outcome does not depend on the order of the faces.
