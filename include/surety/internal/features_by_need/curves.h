@@ -35,14 +35,16 @@ public:
 
   std::vector<bool> kept()
   {
-    while (remove_short_ends()) {}
+    while (remove_short_curves()) {}
     remove_short_components();
     return keep_;
   }
 
 private:
-  static constexpr double reaches = 6;      // a curve is at least so many times the reach long
-  static constexpr double rough_edges = 30; // and this times the roughness, in edges
+  static constexpr double free_curve = 2;    // times as long: one that ends in nothing
+  static constexpr double bound_curve = 0.5; // one that ends on others
+  static constexpr double reaches = 6;       // a curve is at least so many times the reach long
+  static constexpr double rough_edges = 30;  // and this times the roughness, in edges
 
   struct Tally {
     double length = 0, wanted = 0;
@@ -54,7 +56,7 @@ private:
       wanted += reaches * c.reach + rough_edges * c.roughness * c.length;
       ++edges;
     }
-    bool is_long() const { return length >= wanted / double(edges); }
+    bool is_long(double times) const { return length >= times * wanted / double(edges); }
   };
 
   std::size_t degree(Index v) const
@@ -69,31 +71,42 @@ private:
     return mesh_.ends[e][0] == v ? mesh_.ends[e][1] : mesh_.ends[e][0];
   }
 
-  /// One pass over the curves that end in nothing; whether one was removed.
-  bool remove_short_ends()
+  bool is_end(Index v) const { return is_anchor_[v] || degree(v) != 2; }
+  bool is_free_end(Index v) const { return !is_anchor_[v] && degree(v) == 1; }
+
+  /// One pass over the curves between ends; whether one was removed.
+  bool remove_short_curves()
   {
     bool is_changed = false;
-    std::vector<Index> curve;
     for (Index v = 0; v < at_.size(); ++v) {
-      if (is_anchor_[v] || degree(v) != 1) continue;
-      curve.clear();
-      Tally tally;
-      Index at = v, last = none;
-      do {
-        Index next = none;
-        for (const Index e : at_[at])
-          if (keep_[e] && e != last) next = e;
-        if (next == none) break;
-        curve.push_back(next);
-        tally.add(crease_[next]);
-        at = other_end(next, at);
-        last = next;
-      } while (degree(at) == 2 && !is_anchor_[at] && at != v);
-      if (tally.is_long()) continue;
-      for (const Index e : curve) keep_[e] = false;
-      is_changed = true;
+      if (at_[v].empty() || !is_end(v)) continue;
+      for (const Index first : at_[v]) {
+        if (!keep_[first]) continue;
+        const double times = trace(v, first);
+        if (tally_.is_long(times)) continue;
+        for (const Index e : curve_) keep_[e] = false;
+        is_changed = true;
+      }
     }
     return is_changed;
+  }
+
+  /// Follows a curve from an end; returns how many times the length it must have.
+  double trace(Index from, Index first)
+  {
+    curve_.clear();
+    tally_ = Tally();
+    Index at = from, edge = first;
+    while (true) {
+      curve_.push_back(edge);
+      tally_.add(crease_[edge]);
+      at = other_end(edge, at);
+      if (is_end(at) || at == from) break; // from may have lost its other curves
+      const Index last = edge;
+      for (const Index e : at_[at])
+        if (keep_[e] && e != last) edge = e;
+    }
+    return is_free_end(from) || is_free_end(at) ? free_curve : bound_curve;
   }
 
   void remove_short_components()
@@ -115,7 +128,7 @@ private:
           }
         }
       }
-      if (tally.is_long()) continue;
+      if (tally.is_long(1)) continue;
       for (const Index e : component) keep_[e] = false;
     }
   }
@@ -123,6 +136,8 @@ private:
   const Flat_mesh& mesh_;
   const std::vector<Crease>& crease_;
   const std::vector<bool>& is_anchor_;
+  std::vector<Index> curve_;
+  Tally tally_;                        // of that curve
   std::vector<bool> keep_;             // by edge
   std::vector<std::vector<Index>> at_; // by vertex: its candidates
 };
