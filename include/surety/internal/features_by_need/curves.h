@@ -43,7 +43,7 @@ public:
 private:
   static constexpr double free_curve = 2;    // times as long: one that ends in nothing
   static constexpr double bound_curve = 0.5; // one that ends on others
-  static constexpr double reaches = 6;       // a curve is at least so many times the reach long
+  static constexpr double reaches = 3;       // a curve is at least so many times the reach long
   static constexpr double rough_edges = 30;  // and this times the roughness, in edges
 
   struct Tally {
