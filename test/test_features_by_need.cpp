@@ -73,10 +73,15 @@ TEST(Features_by_need, include_borders_and_what_is_constrained)
     }
   }
   EXPECT_EQ(
-      find_features_by_need(mesh, 0.01, p::edge_is_constrained_map(constrained)).constrained, 1u);
+      find_features_by_need(mesh, 0.01, p::corner_angle(60).edge_is_constrained_map(constrained))
+          .constrained,
+      1u);
   auto fixed = mesh.add_property_map<Vertex, bool>("v:mine", false).first;
   fixed[Vertex(24)] = true;
-  EXPECT_EQ(find_features_by_need(mesh, 0.01, p::vertex_is_constrained_map(fixed)).corners, 5u);
+  EXPECT_EQ(
+      find_features_by_need(mesh, 0.01, p::corner_angle(60).vertex_is_constrained_map(fixed))
+          .corners,
+      5u);
 }
 
 TEST(Features_by_need, scale_with_the_mesh)

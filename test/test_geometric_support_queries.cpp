@@ -85,7 +85,11 @@ TEST_P(Closest_point, is_that_of_an_exhaustive_search)
       EXPECT_NEAR((found.point - target).norm(), distance, 1e-14);
       const auto fast = support.closest_point(target);
       EXPECT_GE(std::sqrt(fast.squared_distance), distance - 1e-6 * h);
-      if (far <= 0.02) EXPECT_NEAR(std::sqrt(fast.squared_distance), distance, 1e-6 * h);
+      // Near a smooth surface the descent finds it, too.
+      const bool is_smooth = c.feature_angle == 180 && c.tolerance == no_limit;
+      if (is_smooth && far <= 0.02) {
+        EXPECT_NEAR(std::sqrt(fast.squared_distance), distance, 1e-6 * h);
+      }
     }
   }
 }
