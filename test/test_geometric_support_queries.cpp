@@ -6,12 +6,14 @@
 
 #include <surety/distance.h>
 #include <surety/features_by_need.h>
+#include <surety/geometric_mesh.h>
 
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -22,6 +24,7 @@ using surety::Features;
 using surety::find_features;
 using surety::Geometric_support;
 using surety::make_geometric_support;
+using surety::make_support_on_geometric_mesh;
 using surety::Support_location;
 
 namespace p = surety::parameters;
@@ -322,6 +325,66 @@ TEST(Support, within_a_tolerance_is_proven_by_the_verifier_as_well)
     }
   }
   EXPECT_TRUE(surety::certify_distance(mesh, to_mesh(soup), tolerance).holds());
+}
+
+// ---- on a geometric mesh ----
+
+/// A geometric mesh of a shape, and the support on it.
+struct On_geometric_mesh {
+  On_geometric_mesh(const Mesh& input, double tolerance, double spent)
+    : original(input), mesh(input)
+  {
+    surety::make_geometric_mesh(mesh, spent);
+    const auto deviation = mesh.property_map<Face, double>("f:deviation").first;
+    support = std::make_unique<Geometric_support>(
+        make_support_on_geometric_mesh(mesh, deviation, tolerance, find_features(mesh)));
+  }
+
+  /// From points of the support to the original, which as a support without normals is flat.
+  double sampled_distance() const
+  {
+    const Features features = find_features(original);
+    const std::vector<Vec> no_normals(find_sides(original, features).size(), Vec::Zero());
+    const auto exact = make_geometric_support(original, 1, features, no_normals);
+    EXPECT_LE(exact.report().deviation, 1e-12);
+    double largest = 0;
+    for (std::uint32_t f = 0; f < support->number_of_faces(); ++f) {
+      for (const Vec& b : lattice(8)) {
+        const auto near = exact.guaranteed_closest_point(support->position({f, b}));
+        largest = (std::max)(largest, std::sqrt(near.squared_distance));
+      }
+    }
+    return largest;
+  }
+
+  Mesh original, mesh;
+  std::unique_ptr<Geometric_support> support;
+};
+
+TEST(Support_on_geometric_mesh, stays_within_what_it_proves)
+{
+  for (const Mesh& input : {torus(48, 24), cube(6), subdivided(cylinder(12, 3), 2), saddle(12)}) {
+    const double tolerance = 0.03;
+    const On_geometric_mesh on(input, tolerance, tolerance / 2);
+    const auto& report = on.support->report();
+    EXPECT_LE(report.deviation, tolerance);
+    EXPECT_LE(on.sampled_distance(), report.deviation + 1e-8);
+  }
+}
+
+TEST(Support_on_geometric_mesh, promotes_the_creases_of_a_cube_and_keeps_a_sphere_smooth)
+{
+  const On_geometric_mesh box(cube(6), 0.01, 0.005);
+  EXPECT_EQ(box.support->report().promoted_edges, 12u);
+  EXPECT_EQ(box.support->report().refused_faces, 0u);
+  EXPECT_LE(box.support->report().deviation, 1e-12) << "flat faces";
+  const On_geometric_mesh ball(icosphere(4), 0.05, 0.005);
+  EXPECT_EQ(ball.support->report().promoted_edges, 0u);
+  EXPECT_EQ(ball.support->report().flattened_faces, 0u);
+  EXPECT_TRUE(ball.support->report().faces_to_refine.empty());
+  const On_geometric_mesh tight(icosphere(4), 0.006, 0.005);
+  EXPECT_GT(tight.support->report().flattened_faces + tight.support->report().promoted_edges, 0u);
+  EXPECT_FALSE(tight.support->report().faces_to_refine.empty());
 }
 
 class Model : public testing::TestWithParam<const char*>
