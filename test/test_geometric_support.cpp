@@ -195,63 +195,6 @@ TEST(Support, has_the_curvature_of_spheres_and_tori)
 
 // ---- order of convergence ----
 
-struct Errors {
-  double largest, median;
-};
-
-template <class Position>
-Errors errors(const Mesh& mesh, const Analytic& exact, const Position& position)
-{
-  std::vector<double> distances;
-  for (std::uint32_t f = 0; f < mesh.number_of_faces(); ++f) {
-    for (const Vec& b : lattice(6)) {
-      if (b.maxCoeff() < 1) distances.push_back(exact.distance(position(f, b)));
-    }
-  }
-  const double largest = *std::max_element(distances.begin(), distances.end());
-  return {largest, median(std::move(distances))};
-}
-
-Errors support_errors(const Mesh& mesh, const Analytic& exact)
-{
-  const Features features = find_features(mesh);
-  const auto support = make_geometric_support(
-      mesh, no_limit, features, side_normals(mesh, features, exact.normal));
-  return errors(mesh, exact, [&](std::uint32_t f, const Vec& b) {
-    return support.position({f, b});
-  });
-}
-
-/// PN triangles (A. Vlachos et al., Curved PN Triangles, 2001), the cubic patch of other remeshers.
-Vec pn_point(const std::array<Vec, 3>& p, const std::array<Vec, 3>& n, const Vec& b)
-{
-  const auto edge
-      = [&](int i, int j) { return Vec((2 * p[i] + p[j] - (p[j] - p[i]).dot(n[i]) * n[i]) / 3); };
-  Vec sum = Vec::Zero(), edges = Vec::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    sum += b[i] * b[i] * b[i] * p[i];
-    sum += 3 * b[i] * b[i] * b[j] * edge(i, j) + 3 * b[i] * b[j] * b[j] * edge(j, i);
-    edges += edge(i, j) + edge(j, i);
-  }
-  const Vec mean = (p[0] + p[1] + p[2]) / 3;
-  return sum + 6 * b[0] * b[1] * b[2] * (edges / 6 + (edges / 6 - mean) / 2);
-}
-
-Errors pn_errors(const Mesh& mesh, const Analytic& exact)
-{
-  return errors(mesh, exact, [&](std::uint32_t f, const Vec& b) {
-    const auto h = mesh.halfedge(Face(f));
-    std::array<Vec, 3> corner, normal;
-    const std::array<Vertex, 3> v = {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
-    for (int i = 0; i < 3; ++i) {
-      corner[i] = vec(mesh.point(v[i]));
-      normal[i] = exact.normal(corner[i]);
-    }
-    return pn_point(corner, normal, b);
-  });
-}
-
 double order(double coarse, double fine) { return std::log2(coarse / fine); }
 
 TEST(Support, converges_with_order_four_on_the_sphere)
@@ -268,18 +211,6 @@ TEST(Support, converges_on_the_torus)
   const Errors fine = support_errors(torus(128, 64), analytic_torus());
   EXPECT_GE(order(coarse.largest, fine.largest), 2.9);
   EXPECT_GE(order(coarse.median, fine.median), 3.7);
-}
-
-/// The same torus with vertices moved along it.
-Mesh jittered_torus(std::size_t n, std::uint64_t seed)
-{
-  const auto exact = analytic_torus();
-  return mapped(jittered(torus(n, n / 2), 0.5 / double(n), seed), [&](const Point& q) {
-    const Vec at = vec(q), normal = exact.normal(at);
-    const double r = std::hypot(q.x(), q.y());
-    const Vec on = Vec(at.x() / r, at.y() / r, 0) + 0.4 * normal;
-    return Point(on.x(), on.y(), on.z());
-  });
 }
 
 TEST(Support, errs_by_at_most_a_quarter_of_what_pn_triangles_do)

@@ -7,6 +7,7 @@
 #include <surety/distance.h>
 #include <surety/features_by_need.h>
 #include <surety/geometric_mesh.h>
+#include <surety/support_on_geometric_mesh.h>
 
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 

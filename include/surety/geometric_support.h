@@ -10,8 +10,8 @@
 #include <surety/internal/support/closest.h>
 #include <surety/internal/support/curvature.h>
 #include <surety/internal/support/fitting.h>
+#include <surety/internal/support/input.h>
 #include <surety/internal/support/location.h>
-#include <surety/internal/support/max_normals.h>
 #include <surety/internal/support/report.h>
 #include <surety/internal/support/surface.h>
 #include <surety/internal/support/tree.h>
@@ -27,9 +27,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -138,7 +136,7 @@ public:
   /// The point and the tangent of the curve of an edge: of a ridge or border, if it is one.
   Support_curve_point curve_point(std::uint32_t edge, double parameter) const
   {
-    return internal_curve_point(edge, parameter);
+    return point_of_curve(edge, parameter);
   }
   bool is_feature(std::uint32_t edge) const { return data_->surface.mesh().is_feature[edge]; }
   /// @}
@@ -207,7 +205,7 @@ private:
         std::cos(facing.largest_angle * internal::radians_per_degree)};
   }
 
-  Support_curve_point internal_curve_point(std::uint32_t edge, double parameter) const
+  Support_curve_point point_of_curve(std::uint32_t edge, double parameter) const
   {
     const internal::Flat_mesh& mesh = data_->surface.mesh();
     const Support_location at = location_on_edge(edge, parameter);
@@ -226,55 +224,6 @@ private:
 };
 
 namespace internal {
-
-/// The mesh of a support, its features, and normals by side: Max's where none are given.
-struct Support_input {
-  Flat_mesh mesh;
-  std::vector<Vector> normals;
-};
-
-inline void require_size(
-    std::size_t size, std::size_t expected, const char* function, const char* argument)
-{
-  if (size == expected) return;
-  throw Invalid_input(
-      function, argument,
-      "it has " + std::to_string(size) + " entries, and the mesh asks for "
-          + std::to_string(expected),
-      "make it of the same mesh and the same features");
-}
-
-template <class Mesh, class NamedParameters>
-Support_input support_input(
-    const Mesh& mesh, const Features& features, const std::vector<Eigen::Vector3d>* normals,
-    const char* function, const NamedParameters& np)
-{
-  require_valid_mesh(mesh, function, "mesh", np);
-  require_size(features.edge.size(), num_edges(mesh), function, "features");
-  require_size(features.corner.size(), num_vertices(mesh), function, "features");
-  const Sides sides = find_sides(mesh, features);
-  Support_input input{flatten(mesh, vertex_points(mesh, np)), {}};
-  add_features(mesh, features, sides, input.mesh);
-  if (normals == nullptr) {
-    input.normals = max_normals(input.mesh);
-    return input;
-  }
-  require_size(normals->size(), sides.size(), function, "normals");
-  for (const Eigen::Vector3d& n : *normals) {
-    if (n.allFinite())
-      input.normals.push_back(unit(n));
-    else
-      throw Invalid_input(function, "normals", "a coordinate is not finite");
-  }
-  return input;
-}
-
-inline std::vector<Eigen::Vector3d> normals_of(const Curvature_field& curvature)
-{
-  std::vector<Eigen::Vector3d> normals;
-  for (const Side_curvature& side : curvature.side) normals.push_back(side.normal);
-  return normals;
-}
 
 /// Infinity is a tolerance: the patches are taken as they are.
 inline void require_support_tolerance(double tolerance, const char* function)
@@ -298,43 +247,6 @@ Geometric_support support_within(
   report.tolerance = tolerance;
   report.deviation = proven_deviation(surface);
   return Geometric_support(std::move(surface), shape, std::move(report));
-}
-
-/// The bounds b(K) of a geometric mesh, by face.
-template <class Mesh, class Deviation_map>
-std::vector<double> read_deviation(
-    const Mesh& mesh, const Deviation_map& deviation, const char* function)
-{
-  std::vector<double> result(num_faces(mesh), 0);
-  for (const auto f : faces(mesh)) {
-    result[f] = get(deviation, f);
-    if (result[f] >= 0) continue;
-    throw Invalid_input(
-        function, "deviation", "the bound of a face is " + to_text(result[f]) + ", not a distance");
-  }
-  return result;
-}
-
-template <class Mesh, class Deviation_map, class NamedParameters>
-Geometric_support support_on_geometric_mesh(
-    const Mesh& mesh, const Deviation_map& deviation, double tolerance, const Features& features,
-    const std::vector<Eigen::Vector3d>* normals, const NamedParameters& np)
-{
-  const char* const function = "make_support_on_geometric_mesh";
-  require_positive(tolerance, function, "tolerance");
-  const double corner_angle = angle_parameter(
-      np, internal::corner_angle, defaults::corner_angle, function, "corner_angle");
-  Support_input input = support_input(mesh, features, normals, function, np);
-  const std::vector<double> bounds = read_deviation(mesh, deviation, function);
-  const Fitting fitting(input.mesh, std::move(input.normals), bounds, tolerance, corner_angle);
-  Support_surface surface(
-      std::move(input.mesh), fitting.shape(), std::numeric_limits<double>::infinity());
-  Support_report report;
-  report.tolerance = tolerance;
-  report.deviation = proven_deviation(surface, bounds);
-  report.promoted_edges = fitting.promoted_edges();
-  report.faces_to_refine = fitting.faces_to_refine();
-  return Geometric_support(std::move(surface), fitting.shape(), std::move(report));
 }
 
 } // namespace internal
@@ -395,61 +307,6 @@ Geometric_support make_geometric_support(
 {
   const auto normals = internal::normals_of(curvature);
   return internal::support_within(mesh, tolerance, features, &normals, np);
-}
-
-/// \brief Makes a support of a geometric mesh, as in the paper, and says how far it is from the
-/// original.
-///
-/// The mesh has spent a part b(K) of the tolerance at each face already; the rest is what the patch
-/// of the face may be displaced by. Where it would be more, `report().faces_to_refine` names the
-/// face, since a finer geometric mesh would serve best. What is left to do is done: the
-/// displacements of the patch are scaled down where that leaves less than 5 degrees of a crease,
-/// else its creases become ridges. `report().deviation` bounds the two-sided distance to the
-/// original: it is at most the tolerance if no b(K) exceeds that, up to 2^-20 of it.
-///
-/// A support of the original (`make_geometric_support()`) is nearer to it and smoother; take this
-/// one where the original is not at hand.
-///
-/// \param deviation a readable property map from faces to `double`: how far the face and the part
-///   of the original that corresponds to it are from each other at most, as
-///   `make_geometric_mesh()` writes to "f:deviation".
-/// \param tolerance in mesh units, positive.
-/// \throws Invalid_input when the mesh is not valid, a number not in its range, or features
-///   belong to another mesh.
-///
-/// \cgalNamedParamsBegin
-///   \cgalParamNBegin{corner_angle}
-///     \cgalParamDescription{where a curve of features with new ridges turns by more there is a
-///       corner}
-///     \cgalParamType{`double`, in degrees, from 0 to 180}
-///     \cgalParamDefault{60}
-///   \cgalParamNEnd
-///   \cgalParamNBegin{vertex_point_map}
-///     \cgalParamDescription{where the points of the vertices are}
-///     \cgalParamDefault{`get(CGAL::vertex_point, mesh)`}
-///   \cgalParamNEnd
-/// \cgalNamedParamsEnd
-template <
-    class Mesh, class Deviation_map,
-    class NamedParameters = CGAL::parameters::Default_named_parameters>
-Geometric_support make_support_on_geometric_mesh(
-    const Mesh& mesh, const Deviation_map& deviation, double tolerance, const Features& features,
-    const NamedParameters& np = CGAL::parameters::default_values())
-{
-  return internal::support_on_geometric_mesh(mesh, deviation, tolerance, features, nullptr, np);
-}
-
-/// With the normals of a curvature field. Sides that new ridges cut take Max's normals.
-template <
-    class Mesh, class Deviation_map,
-    class NamedParameters = CGAL::parameters::Default_named_parameters>
-Geometric_support make_support_on_geometric_mesh(
-    const Mesh& mesh, const Deviation_map& deviation, double tolerance, const Features& features,
-    const Curvature_field& curvature,
-    const NamedParameters& np = CGAL::parameters::default_values())
-{
-  const auto normals = internal::normals_of(curvature);
-  return internal::support_on_geometric_mesh(mesh, deviation, tolerance, features, &normals, np);
 }
 
 } // namespace surety
