@@ -56,7 +56,7 @@ public:
 private:
   static constexpr int largest_iterations = 40;
   static constexpr int largest_turns = 24;
-  static constexpr double negligible = 1e-9; // change of barycentric coordinates
+  static constexpr double negligible = 1e-7; // change of barycentric coordinates
 
   void move_to(const Support_location& to)
   {
