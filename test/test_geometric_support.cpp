@@ -87,6 +87,16 @@ TEST_P(Random_normals, still_make_it_g1)
   expect_smooth(mesh, make_geometric_support(mesh, no_limit, features, normals), 0.5);
 }
 
+TEST_P(Random_normals, that_look_away_from_their_faces_make_no_patch_that_does)
+{
+  const Mesh mesh = jittered_sphere(3, GetParam());
+  const Features features = find_features(mesh);
+  const auto normals = random_normals(mesh, features, 1.5, GetParam());
+  const auto support = make_geometric_support(mesh, no_limit, features, normals);
+  EXPECT_GT(support.report().refused_faces, 0u);
+  expect_smooth(mesh, support, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, Random_normals, testing::Range(0u, 5u));
 
 TEST(Support, is_g1_beside_ridges_borders_and_corners)

@@ -426,7 +426,7 @@ TEST_P(Model, has_a_smooth_support_within_the_tolerance)
 INSTANTIATE_TEST_SUITE_P(
     Models, Model,
     testing::Values(
-        "cube", "couplingdown", "fandisk", "anchor_dense", "elephant", "blade", "lion-head",
-        "rotor_small"));
+        "cube", "mannequin-devil", "cow", "elk", "couplingdown", "fandisk", "anchor_dense",
+        "elephant", "blade", "lion-head", "rotor_small"));
 
 } // namespace

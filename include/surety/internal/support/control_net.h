@@ -13,9 +13,7 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace surety::internal {
 
@@ -96,39 +94,6 @@ inline Control_net make_net(const Patch_data& data)
         = from_end - (data.chord[j] - chord) / 4;
   }
   return net;
-}
-
-/// Whether the normal turns so far about an edge that the field A cannot join its ends.
-inline bool is_twisted(const Patch_data& data)
-{
-  for (int i = 0; i < 3; ++i) {
-    if (data.curve[i].is_straight) continue;
-    const Vector a0 = unit(data.normal[i].cross(data.curve[i].start));
-    const Vector a2 = unit(data.normal[next_corner(i)].cross(data.curve[i].end));
-    if (a0.dot(a2) < -0.9) return true;
-  }
-  return false;
-}
-
-/// \brief How near a patch is to folding: the largest displacement in the plane of the triangle,
-/// over the triangle's smallest altitude.
-///
-/// Empirical: no patch below the limit was seen to fold. It decides on shape, never on the bound.
-constexpr double largest_fold = 0.35;
-
-inline double fold(const Control_net& net, const std::array<Vector, 3>& chord)
-{
-  const Vector normal = chord[0].cross(-chord[2]);
-  const double area = normal.norm();
-  const double longest = std::sqrt(
-      (std::max)({chord[0].squaredNorm(), chord[1].squaredNorm(), chord[2].squaredNorm()}));
-  const Vector n = unit(normal);
-  double largest = 0;
-  for (int k = 0; k < 15; ++k) {
-    const Vector d = net.displacement.col(k);
-    largest = (std::max)(largest, (d - d.dot(n) * n).squaredNorm());
-  }
-  return std::sqrt(largest) * longest / area;
 }
 
 } // namespace surety::internal

@@ -10,6 +10,7 @@
 #include <surety/internal/support/control_net.h>
 #include <surety/internal/support/feature_tangents.h>
 #include <surety/internal/support/flat_mesh.h>
+#include <surety/internal/support/fold_guard.h>
 #include <surety/internal/support/middle_normal.h>
 
 #include <algorithm>
@@ -118,9 +119,7 @@ private:
       for (const Index f : pending) {
         const Patch_data data = patch_data(mesh, f);
         net[f] = make_net(data);
-        // Written so that it refuses what is not a number.
-        const bool is_sound = !is_twisted(data) && fold(net[f], data.chord) <= largest_fold;
-        if (!is_sound) folded.push_back(f);
+        if (may_fold(net[f], data)) folded.push_back(f);
       }
       pending.clear();
       for (const Index f : folded) {
