@@ -2,13 +2,13 @@
 //
 // Sound bounds of a patch from its control net.
 //
-// Distance. The distance to a triangle is convex, and a point of the patch is a convex combination
-// of control points, so its distance is at most the same combination of theirs. With q = uv+vw+wu,
+// Displacement. That of a point of the patch is a convex combination of those of control points,
+// whose length is at most the same combination of their lengths. With q = uv+vw+wu,
 // p = uvw the weights of the three kinds of inner points add up to
 //   f = 4 d_e (q - 2q^2 - p) + 6 d_m (q^2 - 2p) + 12 d_i p,
-// d_e, d_m, d_i the largest distance of each kind: outer and middle points of the edges, interior.
+// d_e, d_m, d_i the largest length of each kind: outer and middle points of the edges, interior.
 // For a given q, f is linear in p, and p lies between max(0, (4q - 1)/9) and q^2/3: the maximum is
-// that of three quadratics in q. The same holds with displacements for distances.
+// that of three quadratics in q.
 //
 // Second derivatives. The patch is a quartic with the mean of each pair of Gregory points, plus
 // 12 a^2 bc(b - c)/(2(b + c)) times their difference at each corner. Along a direction inside the
@@ -20,8 +20,6 @@
 #ifndef SURETY_INTERNAL_SUPPORT_BOUND_H
 #define SURETY_INTERNAL_SUPPORT_BOUND_H
 
-#include <surety/internal/deviation/closest_point.h>
-#include <surety/internal/deviation/rounding.h>
 #include <surety/internal/support/control_net.h>
 
 #include <algorithm>
@@ -74,32 +72,6 @@ double bound_from_points(const Function& value_of)
 inline double displacement_bound(const Control_net& net)
 {
   return bound_from_points([&](int k) { return net.displacement.col(k).norm(); });
-}
-
-/// The point of the flat triangle that a control point belongs to, as seen from corner 0.
-inline Vector flat_control_point(int column, const std::array<Vector, 3>& corner)
-{
-  if (column < 9) {
-    const int i = column / 3, k = column % 3 + 1;
-    return ((4 - k) * corner[i] + k * corner[next_corner(i)]) / 4;
-  }
-  const int i = (column - 9) / 2, near = (column - 9) % 2 == 0 ? i : next_corner(i);
-  return (corner[0] + corner[1] + corner[2] + corner[near]) / 4;
-}
-
-/// The largest distance of a point of the patch from the triangle, seen from one of its corners so
-/// that rounding is relative to the size of the triangle.
-inline double distance_bound(const Control_net& net, const std::array<Vector, 3>& chord)
-{
-  const std::array<Vector, 3> corner = {Vector::Zero(), chord[0], -chord[2]};
-  const double reach = (std::max)(
-      {corner[1].cwiseAbs().maxCoeff(), corner[2].cwiseAbs().maxCoeff(),
-       net.displacement.cwiseAbs().maxCoeff()});
-  const Rounding rounding(2 * reach);
-  return bound_from_points([&](int k) {
-    const Vector p = flat_control_point(k, corner) + net.displacement.col(k);
-    return rounding.upper_bound(squared_distance_to_triangle(p, corner[0], corner[1], corner[2]));
-  });
 }
 
 /// How fast the displacement of a patch may change, along directions inside the triangle.
