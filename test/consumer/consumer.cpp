@@ -4,8 +4,7 @@
 // exits with 0 if a simplified grid is certified.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
-#include <surety/geometric_mesh.h>
-#include <surety/version.h>
+#include <surety/surety.h>
 
 #include <CGAL/boost/graph/generators.h>
 #include <iostream>
