@@ -94,6 +94,38 @@ void mark_corners(
   }
 }
 
+/// Borders, what the user constrains, edges that turn by more than an angle (in radians), and what
+/// `mark_more(features)` adds; then the corners of all these.
+template <class Mesh, class NamedParameters, class Mark_more>
+Features features_of(
+    const Mesh& mesh, const NamedParameters& np, const char* function, double feature_angle,
+    const Mark_more& mark_more)
+{
+  using CGAL::parameters::choose_parameter;
+  using CGAL::parameters::get_parameter;
+  using Edge = typename boost::graph_traits<Mesh>::edge_descriptor;
+  using Vertex = typename boost::graph_traits<Mesh>::vertex_descriptor;
+
+  const double corner_angle = angle_parameter(
+      np, internal::corner_angle, defaults::corner_angle, function, "corner_angle");
+  const auto points = vertex_points(mesh, np);
+  Features features;
+  mark_feature_edges(
+      mesh, points,
+      choose_parameter(
+          get_parameter(np, CGAL::internal_np::edge_is_constrained),
+          CGAL::Static_boolean_property_map<Edge, false>()),
+      feature_angle, features);
+  mark_more(features);
+  mark_corners(
+      mesh, points,
+      choose_parameter(
+          get_parameter(np, CGAL::internal_np::vertex_is_constrained),
+          CGAL::Static_boolean_property_map<Vertex, false>()),
+      corner_angle, features);
+  return features;
+}
+
 } // namespace internal
 
 /// \brief Finds the feature edges and the corners of a mesh.
@@ -136,32 +168,10 @@ template <class Mesh, class NamedParameters = CGAL::parameters::Default_named_pa
 Features find_features(
     const Mesh& mesh, const NamedParameters& np = CGAL::parameters::default_values())
 {
-  using CGAL::parameters::choose_parameter;
-  using CGAL::parameters::get_parameter;
-  using Edge = typename boost::graph_traits<Mesh>::edge_descriptor;
-  using Vertex = typename boost::graph_traits<Mesh>::vertex_descriptor;
-
   const char* const function = "find_features";
   const double feature_angle = internal::angle_parameter(
       np, internal::feature_angle, internal::defaults::feature_angle, function, "feature_angle");
-  const double corner_angle = internal::angle_parameter(
-      np, internal::corner_angle, internal::defaults::corner_angle, function, "corner_angle");
-
-  const auto points = internal::vertex_points(mesh, np);
-  Features features;
-  internal::mark_feature_edges(
-      mesh, points,
-      choose_parameter(
-          get_parameter(np, CGAL::internal_np::edge_is_constrained),
-          CGAL::Static_boolean_property_map<Edge, false>()),
-      feature_angle, features);
-  internal::mark_corners(
-      mesh, points,
-      choose_parameter(
-          get_parameter(np, CGAL::internal_np::vertex_is_constrained),
-          CGAL::Static_boolean_property_map<Vertex, false>()),
-      corner_angle, features);
-  return features;
+  return internal::features_of(mesh, np, function, feature_angle, [](Features&) {});
 }
 
 /// \brief The sides of a surface: what feature edges leave of the faces round each vertex.

@@ -78,39 +78,19 @@ Features find_features_by_need(
     const Mesh& mesh, double tolerance,
     const NamedParameters& np = CGAL::parameters::default_values())
 {
-  using CGAL::parameters::choose_parameter;
-  using CGAL::parameters::get_parameter;
-  using Edge = typename boost::graph_traits<Mesh>::edge_descriptor;
-  using Vertex = typename boost::graph_traits<Mesh>::vertex_descriptor;
-
   const char* const function = "find_features_by_need";
   internal::require_valid_mesh(mesh, function, "mesh", np);
   internal::require_positive(tolerance, function, "tolerance");
-  const double corner_angle = internal::angle_parameter(
-      np, internal::corner_angle, internal::defaults::corner_angle, function, "corner_angle");
-
-  const auto points = internal::vertex_points(mesh, np);
-  Features features;
-  internal::mark_feature_edges(
-      mesh, points,
-      choose_parameter(
-          get_parameter(np, CGAL::internal_np::edge_is_constrained),
-          CGAL::Static_boolean_property_map<Edge, false>()),
-      180 * internal::radians_per_degree, features);
-  const std::vector<bool> creases
-      = internal::creases_by_need(internal::flatten(mesh, points), tolerance, features.edge);
-  for (const auto e : edges(mesh)) {
-    if (!creases[e]) continue;
-    features.edge[e] = true;
-    ++features.ridges;
-  }
-  internal::mark_corners(
-      mesh, points,
-      choose_parameter(
-          get_parameter(np, CGAL::internal_np::vertex_is_constrained),
-          CGAL::Static_boolean_property_map<Vertex, false>()),
-      corner_angle, features);
-  return features;
+  constexpr double no_angle = 180 * internal::radians_per_degree;
+  return internal::features_of(mesh, np, function, no_angle, [&](Features& features) {
+    const std::vector<bool> creases = internal::creases_by_need(
+        internal::flatten(mesh, internal::vertex_points(mesh, np)), tolerance, features.edge);
+    for (const auto e : edges(mesh)) {
+      if (!creases[e]) continue;
+      features.edge[e] = true;
+      ++features.ridges;
+    }
+  });
 }
 
 } // namespace surety

@@ -40,13 +40,14 @@ inline double length_by_simpson(double a, double middle, double b)
   return (a + 4 * middle + b) / 6;
 }
 
-/// Length of an edge of Euclidean length `length` between two isotropic sizes.
-inline double edge_length(double length, double size_a, double size_b, Length_rule rule)
+/// The length of an edge by a rule, from its lengths in the metrics of both ends and, where the
+/// rule wants it, `middle()`, its length in the metric half way.
+template <class Middle>
+double edge_length_by(Length_rule rule, double a, double b, const Middle& middle)
 {
-  const double a = length / size_a, b = length / size_b;
   switch (rule) {
   case Length_rule::simpson:
-    return length_by_simpson(a, length / ((size_a + size_b) / 2), b);
+    return length_by_simpson(a, middle(), b);
   case Length_rule::trapezoid:
     return (a + b) / 2;
   case Length_rule::end_only:
@@ -59,25 +60,19 @@ inline double edge_length(double length, double size_a, double size_b, Length_ru
   return length_of_linear_size(a, b);
 }
 
+/// Length of an edge of Euclidean length `length` between two isotropic sizes.
+inline double edge_length(double length, double size_a, double size_b, Length_rule rule)
+{
+  return edge_length_by(
+      rule, length / size_a, length / size_b, [&] { return length / ((size_a + size_b) / 2); });
+}
+
 /// Length of the vector e that leads from a point with metric m_a to one with metric m_b.
 inline double edge_length(const Vector& e, const Tensor& m_a, const Tensor& m_b, Length_rule rule)
 {
-  const double a = length_in(m_a, e), b = length_in(m_b, e);
-  switch (rule) {
-  case Length_rule::simpson: {
-    const Tensor middle = metric_of_sizes((size_tensor(m_a) + size_tensor(m_b)) / 2);
-    return length_by_simpson(a, length_in(middle, e), b);
-  }
-  case Length_rule::trapezoid:
-    return (a + b) / 2;
-  case Length_rule::end_only:
-    return a;
-  case Length_rule::logarithmic_mean:
-    return length_of_geometric_size(a, b);
-  case Length_rule::linear_size:
-    break;
-  }
-  return length_of_linear_size(a, b);
+  return edge_length_by(rule, length_in(m_a, e), length_in(m_b, e), [&] {
+    return length_in(metric_of_sizes((size_tensor(m_a) + size_tensor(m_b)) / 2), e);
+  });
 }
 
 } // namespace surety::internal::metric
