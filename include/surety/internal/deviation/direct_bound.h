@@ -255,6 +255,9 @@ private:
 
 } // namespace surety::internal
 
+#include <surety/internal/deviation/direct_bound_cells.h>
 #include <surety/internal/deviation/direct_bound_impl.h>
+#include <surety/internal/deviation/direct_bound_measures.h>
+#include <surety/internal/deviation/direct_bound_routes.h>
 
 #endif // SURETY_INTERNAL_DEVIATION_DIRECT_BOUND_H
