@@ -63,7 +63,7 @@ void write_deviation(
 ///   coordinates, degenerate or duplicate faces or isolated vertices, or when a parameter is out of
 ///   range; names the element and the remedy.
 ///
-/// Complexity: O(n log n) in the number of faces, with about 250 bytes a face beside the mesh.
+/// Complexity: O(n log n) in the number of faces, with about 270 bytes a face beside the mesh.
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{feature_angle}
