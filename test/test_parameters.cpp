@@ -23,6 +23,7 @@ namespace tag = surety::internal;
 using CGAL::parameters::choose_parameter;
 using CGAL::parameters::get_parameter;
 using CGAL::parameters::get_parameter_reference;
+using surety::Curvature_method;
 using surety::Deviation_bound;
 using surety::Effort;
 using surety::Length_rule;
@@ -71,7 +72,9 @@ auto full_chain()
       .size_field(4.5f)
       .length_rule(Length_rule::simpson)
       .gradation(1.75)
-      .smoothing_rounds(6u);
+      .smoothing_rounds(6u)
+      .curvature_method(Curvature_method::five_coefficients)
+      .noise_floor(0.375);
 }
 
 template <class Np>
@@ -107,6 +110,8 @@ void expect_full_chain(const Np& np)
   EXPECT_EQ(get_parameter(np, tag::length_rule), Length_rule::simpson);
   EXPECT_EQ(get_parameter(np, tag::gradation), 1.75);
   EXPECT_EQ(get_parameter(np, tag::smoothing_rounds), 6u);
+  EXPECT_EQ(get_parameter(np, tag::curvature_method), Curvature_method::five_coefficients);
+  EXPECT_EQ(get_parameter(np, tag::noise_floor), 0.375);
 }
 
 TEST(Parameters, each_of_a_chain_is_read_back) { expect_full_chain(full_chain()); }
@@ -134,6 +139,10 @@ TEST(Parameters, each_can_start_a_chain)
       get_parameter(p::metric_kind(Metric_kind::isotropic), tag::metric_kind),
       Metric_kind::isotropic);
   EXPECT_EQ(get_parameter(p::metric_tolerance(0.5), tag::metric_tolerance), 0.5);
+  EXPECT_EQ(
+      get_parameter(p::curvature_method(Curvature_method::adaptive), tag::curvature_method),
+      Curvature_method::adaptive);
+  EXPECT_EQ(get_parameter(p::noise_floor(0.375), tag::noise_floor), 0.375);
   EXPECT_EQ(get_parameter(p::relative_gap(0.125), tag::relative_gap), 0.125);
   EXPECT_EQ(get_parameter(p::turning_angle(15), tag::turning_angle), 15);
   EXPECT_EQ(get_parameter(p::gap_constant(0.25), tag::gap_constant), 0.25);
