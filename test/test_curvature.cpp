@@ -55,7 +55,9 @@ TEST(Adaptive_curvature, is_of_order_three_and_a_half_on_jittered_meshes)
     const auto surfaces = smooth_surfaces();
     const Errors coarse = mean_errors(surfaces, layout, 48, 0, method);
     const Errors fine = mean_errors(surfaces, layout, 96, 0, method);
-    if (layout == Layout::jittered) EXPECT_LE(coarse.median, 5e-5);
+    if (layout == Layout::jittered) {
+      EXPECT_LE(coarse.median, 5e-5);
+    }
     const double least = layout == Layout::random ? 3.25 : 3.5;
     EXPECT_GE(std::log2(coarse.median / fine.median), least) << to_string(layout);
     EXPECT_GE(std::log2(coarse.tail / fine.tail), 3) << to_string(layout);
@@ -301,7 +303,9 @@ TEST(Sides, of_a_box_are_planar_and_its_curves_straight)
   }
   for (const Vertex v : mesh.vertices()) {
     EXPECT_NEAR(field.curve[v].curvature, 0, 1e-9);
-    if (features.corner[v]) EXPECT_EQ(field.curve[v].tangent, Eigen::Vector3d::Zero());
+    if (features.corner[v]) {
+      EXPECT_EQ(field.curve[v].tangent, Eigen::Vector3d::Zero());
+    }
   }
 }
 
@@ -416,7 +420,9 @@ TEST(Principal_curvatures, writes_the_side_of_largest_curvature)
     EXPECT_NEAR(map[v].mean_curvature, is_wall ? -0.25 : 0, 0.025);
     EXPECT_EQ(map[v].type, is_wall ? Point_type::parabolic : Point_type::planar);
     EXPECT_NEAR(map[v].normal * map[v].min_direction, 0, 1e-12);
-    if (is_wall) EXPECT_NEAR(map[v].min_direction.z(), 0, 1e-2);
+    if (is_wall) {
+      EXPECT_NEAR(map[v].min_direction.z(), 0, 1e-2);
+    }
   }
 }
 
