@@ -230,7 +230,7 @@ private:
   }
 
   static constexpr int enough_samples = 24;
-  static constexpr double certainty = 0.01;
+  static constexpr double certainty = 0.005;
   static constexpr double agreement_of_levels = 4;
   static constexpr double agreement_of_orders = 1.5;
   static constexpr double largest_elongation = 9; ///< of moments: three to one in length
