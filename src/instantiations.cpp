@@ -19,5 +19,11 @@ template Hausdorff_distance hausdorff_distance(
     const tool::No_parameters&);
 template Features find_features(const tool::Mesh&, const tool::Feature_parameters&);
 template Mesh_statistics mesh_statistics(const tool::Mesh&, const tool::No_parameters&);
+template Curvature_field estimate_curvatures<tool::Concurrency>(
+    const tool::Mesh&, const Features&, const tool::Curvature_parameters&);
+template Metric_field make_geometric_metric(
+    const tool::Mesh&, const Curvature_field&, const tool::Metric_parameters&);
+template std::size_t limit_gradation(
+    const tool::Mesh&, Metric_field&, const tool::Gradation_parameters&);
 
 } // namespace surety

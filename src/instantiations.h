@@ -10,9 +10,12 @@
 #include "progress.h"
 
 #include <surety/certificate.h>
+#include <surety/curvature.h>
 #include <surety/distance.h>
 #include <surety/features.h>
 #include <surety/geometric_mesh.h>
+#include <surety/gradation.h>
+#include <surety/metric.h>
 #include <surety/parameters.h>
 #include <surety/statistics.h>
 
@@ -68,6 +71,25 @@ inline auto feature_parameters(double feature_angle, double corner_angle)
   return parameters::feature_angle(feature_angle).corner_angle(corner_angle);
 }
 
+inline auto curvature_parameters(double noise_floor)
+{
+  return parameters::noise_floor(noise_floor);
+}
+
+/// The controls of `make_geometric_metric`, lengths in mesh units.
+struct Metric_controls {
+  double tolerance, minimum_size, maximum_size;
+  Metric_kind kind;
+};
+
+inline auto metric_parameters(const Metric_controls& controls)
+{
+  return parameters::metric_tolerance(controls.tolerance)
+      .minimum_size(controls.minimum_size)
+      .maximum_size(controls.maximum_size)
+      .metric_kind(controls.kind);
+}
+
 /// On all threads where TBB is there; the result is the same.
 using Concurrency = CGAL::Parallel_if_available_tag;
 
@@ -75,6 +97,9 @@ using No_parameters = CGAL::parameters::Default_named_parameters;
 using Simplify_parameters = decltype(simplify_parameters(
     std::declval<Controls>(), std::declval<Tolerances>(), std::declval<Visitor>()));
 using Feature_parameters = decltype(feature_parameters(0, 0));
+using Curvature_parameters = decltype(curvature_parameters(0));
+using Metric_parameters = decltype(metric_parameters(std::declval<Metric_controls>()));
+using Gradation_parameters = decltype(parameters::gradation(1));
 
 } // namespace surety::tool
 
@@ -93,6 +118,12 @@ extern template Hausdorff_distance hausdorff_distance(
     const tool::No_parameters&);
 extern template Features find_features(const tool::Mesh&, const tool::Feature_parameters&);
 extern template Mesh_statistics mesh_statistics(const tool::Mesh&, const tool::No_parameters&);
+extern template Curvature_field estimate_curvatures<tool::Concurrency>(
+    const tool::Mesh&, const Features&, const tool::Curvature_parameters&);
+extern template Metric_field make_geometric_metric(
+    const tool::Mesh&, const Curvature_field&, const tool::Metric_parameters&);
+extern template std::size_t limit_gradation(
+    const tool::Mesh&, Metric_field&, const tool::Gradation_parameters&);
 
 } // namespace surety
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CGAL's writers for OFF, OBJ, PLY and STL; VTP, which CGAL writes with the VTK library only, is
-// simple enough to write here.
+// CGAL's writers for OFF, OBJ, PLY and STL.
 #include "mesh_writing.h"
+
+#include "colors.h"
+#include "vtp.h"
 
 #include <surety/statistics.h>
 
@@ -13,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <ostream>
 #include <vector>
 
@@ -45,21 +46,6 @@ std::vector<double> qualities(const Mesh& mesh)
   return values;
 }
 
-/// The colour of a value in [0, 1]: dark violet, blue, green, yellow, of even brightness steps
-/// and readable by everyone (samples of the map "viridis").
-CGAL::IO::Color heat(double value)
-{
-  constexpr std::array<std::array<double, 3>, 6> samples = {
-      {{68, 1, 84}, {65, 68, 135}, {42, 120, 142}, {34, 168, 132}, {122, 209, 81}, {253, 231, 37}}};
-  const double position = std::clamp(value, 0., 1.) * (samples.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(position), samples.size() - 2);
-  const double t = position - double(i);
-  const auto channel = [&](std::size_t c) {
-    return static_cast<unsigned char>(std::lround((1 - t) * samples[i][c] + t * samples[i + 1][c]));
-  };
-  return {channel(0), channel(1), channel(2)};
-}
-
 /// PLY writes all properties of a mesh: this copy has just those that the file shall have.
 Mesh heat_map(const Mesh& mesh, const Deviation& deviation)
 {
@@ -86,46 +72,6 @@ void write_stl(std::ostream& stream, const Mesh& mesh)
   // Binary STL knows single precision only.
   if (has_float_coordinates(mesh)) CGAL::IO::set_binary_mode(stream);
   CGAL::IO::write_STL(stream, mesh);
-}
-
-template <class Value, class Values>
-void write_array(
-    std::ostream& stream, const char* type, const char* name, int components, const Values& values)
-{
-  stream << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
-         << components << "\" format=\"ascii\">\n";
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const bool ends_line = (i + 1) % std::size_t(components) == 0;
-    stream << Value(values[i]) << (ends_line ? '\n' : ' ');
-  }
-  stream << "</DataArray>\n";
-}
-
-void write_vtp(std::ostream& stream, const Mesh& mesh, const Deviation& deviation)
-{
-  std::vector<double> coordinates;
-  for (const auto v : mesh.vertices()) {
-    const Point& p = mesh.point(v);
-    coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
-  }
-  std::vector<std::size_t> connectivity, offsets;
-  for (const Face face : mesh.faces()) {
-    for (const auto v : corners(mesh, face)) connectivity.push_back(v);
-    offsets.push_back(connectivity.size());
-  }
-  stream << "<?xml version=\"1.0\"?>\n"
-            "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-            "<PolyData>\n<Piece NumberOfPoints=\""
-         << mesh.number_of_vertices() << "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
-         << "NumberOfStrips=\"0\" NumberOfPolys=\"" << mesh.number_of_faces() << "\">\n<Points>\n";
-  write_array<double>(stream, "Float64", "Points", 3, coordinates);
-  stream << "</Points>\n<Polys>\n";
-  write_array<std::size_t>(stream, "Int64", "connectivity", 1, connectivity);
-  write_array<std::size_t>(stream, "Int64", "offsets", 1, offsets);
-  stream << "</Polys>\n<CellData Scalars=\"deviation\">\n";
-  write_array<double>(stream, "Float64", "deviation", 1, bounds(mesh, deviation));
-  write_array<double>(stream, "Float64", "quality", 1, qualities(mesh));
-  stream << "</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
 } // namespace
@@ -158,7 +104,11 @@ void write_mesh(
   if (extension == "off") CGAL::IO::write_OFF(stream, mesh);
   if (extension == "obj") CGAL::IO::write_OBJ(stream, mesh);
   if (extension == "stl") write_stl(stream, mesh);
-  if (extension == "vtp") write_vtp(stream, mesh, deviation);
+  if (extension == "vtp") {
+    write_vtp(
+        stream, mesh, {},
+        {{"deviation", 1, bounds(mesh, deviation)}, {"quality", 1, qualities(mesh)}}, "deviation");
+  }
   if (extension == "ply") {
     CGAL::IO::set_binary_mode(stream);
     CGAL::IO::write_PLY(stream, heat_map(mesh, deviation));
