@@ -11,46 +11,13 @@ import json
 import sys
 
 import vtk
+from scene import color_scale, draw, from_the_front, read_off, read_vtp, scale
 
 SIZE = (2100, 840)
 
 
-def read_off(path):
-    """VTK has no reader for OFF."""
-    with open(path, encoding="utf-8") as file:
-        words = " ".join(line.split("#")[0] for line in file).split()
-    count, faces = int(words[1]), int(words[2])
-    points, polygons = vtk.vtkPoints(), vtk.vtkCellArray()
-    for i in range(count):
-        points.InsertNextPoint(*(float(x) for x in words[4 + 3 * i : 7 + 3 * i]))
-    position = 4 + 3 * count
-    for _ in range(faces):
-        corners = int(words[position])
-        polygons.InsertNextCell(corners)
-        for corner in words[position + 1 : position + 1 + corners]:
-            polygons.InsertCellPoint(int(corner))
-        position += 1 + corners
-    data = vtk.vtkPolyData()
-    data.SetPoints(points)
-    data.SetPolys(polygons)
-    return data
-
-
-def read_vtp(path):
-    reader = vtk.vtkXMLPolyDataReader()
-    reader.SetFileName(path)
-    reader.Update()
-    return reader.GetOutput()
-
-
-def heat_colors(tolerance):
-    """The same colours as those of surety's PLY files."""
-    samples = [(68, 1, 84), (65, 68, 135), (42, 120, 142), (34, 168, 132), (122, 209, 81),
-               (253, 231, 37)]
-    colors = vtk.vtkColorTransferFunction()
-    for i, sample in enumerate(samples):
-        colors.AddRGBPoint(tolerance * i / (len(samples) - 1), *(c / 255 for c in sample))
-    return colors
+# The colours of surety's PLY files.
+HEAT = [(68, 1, 84), (65, 68, 135), (42, 120, 142), (34, 168, 132), (122, 209, 81), (253, 231, 37)]
 
 
 def surface(data, colors=None):
@@ -77,40 +44,11 @@ def surface(data, colors=None):
     return actor
 
 
-def title(text):
-    actor = vtk.vtkTextActor()
-    actor.SetInput(text)
-    actor.GetTextProperty().SetFontSize(30)
-    actor.GetTextProperty().SetColor(0.1, 0.1, 0.1)
-    actor.GetTextProperty().SetJustificationToCentered()
-    actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-    actor.SetPosition(0.5, 0.94)
-    return actor
-
-
-def scale(colors):
-    bar = vtk.vtkScalarBarActor()
-    bar.SetLookupTable(colors)
-    bar.SetNumberOfLabels(3)
-    bar.SetLabelFormat("%.3g")
-    bar.SetOrientationToHorizontal()
-    bar.SetPosition(0.2, 0.015)
-    bar.SetWidth(0.6)
-    bar.SetHeight(0.07)
-    bar.UnconstrainedFontSizeOn()
-    bar.GetLabelTextProperty().SetFontSize(24)
-    bar.GetLabelTextProperty().SetColor(0.1, 0.1, 0.1)
-    bar.GetLabelTextProperty().ShadowOff()
-    bar.GetLabelTextProperty().ItalicOff()
-    bar.GetLabelTextProperty().BoldOff()
-    return bar
-
-
 def main(original_path, simplified_path, report_path, picture_path):
     with open(report_path, encoding="utf-8") as file:
         report = json.load(file)
     tolerance = report["certificate"]["tolerance"]
-    colors = heat_colors(tolerance)
+    colors = color_scale(HEAT, 0, tolerance)
     original, simplified = read_off(original_path), read_vtp(simplified_path)
     views = [
         (f"input: {report['input']['faces']:,} faces", [surface(original)]),
@@ -118,33 +56,7 @@ def main(original_path, simplified_path, report_path, picture_path):
         ("proven deviation, up to the tolerance", [surface(simplified, colors), scale(colors)]),
     ]
 
-    window = vtk.vtkRenderWindow()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(8)
-    window.SetSize(*SIZE)
-    for i, (text, actors) in enumerate(views):
-        renderer = vtk.vtkRenderer()
-        renderer.SetViewport(i / len(views), 0, (i + 1) / len(views), 1)
-        renderer.SetBackground(1, 1, 1)
-        renderer.AddActor(title(text))
-        for actor in actors:
-            renderer.AddActor(actor)
-        camera = renderer.GetActiveCamera()
-        camera.SetPosition(0, 0.15, 1)
-        camera.SetViewUp(0, 1, 0)
-        renderer.ResetCamera()
-        camera.Zoom(1.2)
-        camera.SetWindowCenter(0, -0.06)  # room for the scale below
-        window.AddRenderer(renderer)
-    window.Render()
-
-    image = vtk.vtkWindowToImageFilter()
-    image.SetInput(window)
-    image.ReadFrontBufferOff()
-    writer = vtk.vtkPNGWriter()
-    writer.SetFileName(picture_path)
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.Write()
+    draw(views, SIZE, from_the_front(1.2, -0.06), picture_path)  # with room for the scale
 
 
 if __name__ == "__main__":

@@ -11,8 +11,8 @@ import json
 import sys
 from pathlib import Path
 
-import vtk
-from heat_map import read_off, surface, title
+from heat_map import surface
+from scene import draw, from_the_front, read_off
 
 SIZE = (2400, 700)
 
@@ -20,33 +20,13 @@ SIZE = (2400, 700)
 def main(folder, picture_path):
     index = json.loads((Path(folder) / "index.json").read_text(encoding="utf-8"))
     diagonal = index["input"]["diagonal"]
-    window = vtk.vtkRenderWindow()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(8)
-    window.SetSize(*SIZE)
     levels = index["levels"]
-    for i, level in enumerate(levels):
-        renderer = vtk.vtkRenderer()
-        renderer.SetViewport(i / len(levels), 0, (i + 1) / len(levels), 1)
-        renderer.SetBackground(1, 1, 1)
+    views = []
+    for level in levels:
         bound = 100 * level["bound"] / diagonal
-        renderer.AddActor(title(f"{level['faces']:,} faces within {bound:.2g} %"))
-        renderer.AddActor(surface(read_off(Path(folder) / level["file"])))
-        camera = renderer.GetActiveCamera()
-        camera.SetPosition(0, 0.15, 1)
-        camera.SetViewUp(0, 1, 0)
-        renderer.ResetCamera()
-        camera.Zoom(1.1)
-        window.AddRenderer(renderer)
-    window.Render()
-
-    image = vtk.vtkWindowToImageFilter()
-    image.SetInput(window)
-    image.ReadFrontBufferOff()
-    writer = vtk.vtkPNGWriter()
-    writer.SetFileName(picture_path)
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.Write()
+        views.append((f"{level['faces']:,} faces within {bound:.2g} %",
+                      [surface(read_off(Path(folder) / level["file"]))]))
+    draw(views, SIZE, from_the_front(1.1), picture_path)
 
 
 if __name__ == "__main__":
