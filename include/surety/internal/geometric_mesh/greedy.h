@@ -311,7 +311,7 @@ inline void Greedy::retry_around(Index v)
     if (h < refused_.size()) refused_[h] = Refusal();
   });
   // Its turn does not change until it comes: most vertices change many times before.
-  if (queue_.contains(v))
+  if (!adds_up_ && queue_.contains(v))
     best_[v] = none;
   else
     schedule(v);
