@@ -18,8 +18,9 @@ namespace surety {
 
 /// How the distance between the mesh and its original is bounded.
 enum class Deviation_bound {
-  direct,     ///< by a continuous map from the original to the mesh; never accumulates
-  accumulated ///< by the sum of the distances between successive meshes; cheap, pessimistic
+  direct,      ///< by a continuous map from the original to the mesh; never accumulates
+  accumulated, ///< by the sum of the distances between successive meshes; cheap, pessimistic
+  covering ///< by convex cells of both meshes, each near to a face of the other; the most general
 };
 
 /// Where the vertices of a geometric mesh may lie.

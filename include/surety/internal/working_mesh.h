@@ -129,20 +129,42 @@ public:
   /// Turns h = a -> b, between c on its left and d on its right, into d -> c.
   void flip(Index h);
 
+  /// What a split takes: a vertex m, the edges (m, b), (m, c), (m, d) and a face on the left and on
+  /// the right of it, where h = a -> b lies between c on its left and d on its right. Edge h
+  /// becomes (a, m).
+  struct Split_elements {
+    Index vertex;
+    std::array<Index, 3> edge;
+    std::array<Index, 2> face;
+  };
+  /// Elements that are not in use, with more room made where there are none left: then all ghosts
+  /// get new indices, and what refers to them is void. Not within a transaction.
+  Split_elements elements_for_split(Index h);
+  /// Puts a vertex on an edge. Not within a transaction.
+  void split(Index h, const Split_elements& with, const Vector& point, Index anchor);
+
 private:
   Index next_on_border(Index h) const;
   void close_borders();
+  void open_borders();
   void index_halfedges();
+  void find_unused();
+  void make_room();
+  Index new_ghost_edge();
+  void put_in_face(Index face, Index a, Index b, Index c);
   void set(Index& place, Index value) { journal_->set(place, value); }
   void remove_face(Index f)
   {
     set(face_halfedge_[f], none);
-    if (!is_ghost_face(f)) set(live_faces_, live_faces_ - 1);
+    if (is_ghost_face(f)) return;
+    set(live_faces_, live_faces_ - 1);
+    if (splits_) unused_faces_.push_back(f);
   }
   void remove_edge(Index e)
   {
     set(face_[2 * e], none);
     set(face_[2 * e + 1], none);
+    if (splits_ && e < real_edges_) unused_edges_.push_back(e);
   }
 
   /// Puts half-edge h in the place that `old` has in its face.
@@ -161,6 +183,9 @@ private:
   std::vector<Index> vertex_halfedge_, face_halfedge_;
   std::vector<bool> feature_, fixed_, on_feature_, sealed_;
   Index real_vertices_, real_faces_, real_edges_, live_faces_ = 0;
+  /// Real elements without a use, the next one last; looked for when the first split asks.
+  std::vector<Index> unused_vertices_, unused_edges_, unused_faces_;
+  bool splits_ = false;
 };
 
 inline void Working_mesh::collapse(Index h)
@@ -184,6 +209,7 @@ inline void Working_mesh::collapse(Index h)
   remove_edge(edge(right_spoke));
 
   set(vertex_halfedge_[p], none);
+  if (splits_) unused_vertices_.push_back(p);
   set(vertex_halfedge_[q], right);
   set(vertex_halfedge_[target_[left]], left);
   set(vertex_halfedge_[source(right)], opposite(right));
@@ -202,6 +228,123 @@ inline void Working_mesh::flip(Index h)
   set(face_halfedge_[left], h), set(face_halfedge_[right], o);
   set(vertex_halfedge_[a], ca), set(vertex_halfedge_[b], db);
   set(vertex_halfedge_[c], h), set(vertex_halfedge_[d], o);
+}
+
+inline Working_mesh::Split_elements Working_mesh::elements_for_split(Index h)
+{
+  if (!splits_) find_unused();
+  if (unused_vertices_.empty() || unused_edges_.size() < 3 || unused_faces_.size() < 2) make_room();
+  Split_elements result;
+  result.vertex = unused_vertices_.back();
+  std::size_t edges = unused_edges_.size(), faces = unused_faces_.size();
+  auto ghost_edge = static_cast<Index>(next_.size() / 2);
+  auto ghost_face = static_cast<Index>(face_halfedge_.size());
+  result.edge[0] = unused_edges_[--edges];
+  for (int side = 0; side < 2; ++side) {
+    const bool is_ghost = is_ghost_face(face_[side == 0 ? h : opposite(h)]);
+    result.edge[side + 1] = is_ghost ? ghost_edge++ : unused_edges_[--edges];
+    result.face[side] = is_ghost ? ghost_face++ : unused_faces_[--faces];
+  }
+  return result;
+}
+
+inline void Working_mesh::split(
+    Index h, const Split_elements& with, const Vector& point, Index anchor)
+{
+  const Index o = opposite(h);
+  const Index bc = next(h), ca = prev(h), ad = next(o), db = prev(o);
+  const Index b = target_[h], c = target_[bc], d = target_[ad], m = with.vertex;
+  const Index left = face_[h], right = face_[o];
+  unused_vertices_.pop_back();
+  unused_edges_.pop_back();
+  for (int side = 0; side < 2; ++side) {
+    if (is_ghost_face(side == 0 ? left : right)) {
+      new_ghost_edge();
+      face_halfedge_.push_back(none);
+    } else {
+      unused_edges_.pop_back();
+      unused_faces_.pop_back();
+      ++live_faces_;
+    }
+  }
+
+  const Index mb = halfedge(with.edge[0]), mc = halfedge(with.edge[1]), md = halfedge(with.edge[2]);
+  target_[mb] = b, target_[opposite(mb)] = m;
+  target_[mc] = c, target_[opposite(mc)] = m;
+  target_[md] = d, target_[opposite(md)] = m;
+  target_[h] = m;
+  put_in_face(left, h, mc, ca);
+  put_in_face(with.face[0], mb, bc, opposite(mc));
+  put_in_face(right, o, ad, opposite(md));
+  put_in_face(with.face[1], opposite(mb), md, db);
+  vertex_halfedge_[m] = h;
+  vertex_halfedge_[b] = mb;
+  vertex_halfedge_[c] = bc, vertex_halfedge_[d] = ad;
+  points_[m] = point;
+  anchor_[m] = anchor;
+  fixed_[m] = false;
+  on_feature_[m] = feature_[edge(h)];
+  feature_[with.edge[0]] = feature_[edge(h)];
+  feature_[with.edge[1]] = feature_[with.edge[2]] = false;
+}
+
+inline void Working_mesh::put_in_face(Index face, Index a, Index b, Index c)
+{
+  next_[a] = b, next_[b] = c, next_[c] = a;
+  for (const Index h : {a, b, c}) face_[h] = face;
+  face_halfedge_[face] = a;
+}
+
+inline Index Working_mesh::new_ghost_edge()
+{
+  const auto e = static_cast<Index>(next_.size() / 2);
+  for (auto* array : {&next_, &target_, &face_}) array->resize(2 * e + 2, none);
+  feature_.push_back(false);
+  return e;
+}
+
+inline void Working_mesh::find_unused()
+{
+  splits_ = true;
+  unused_vertices_.clear(), unused_edges_.clear(), unused_faces_.clear();
+  for (Index v = real_vertices_; v-- > 0;)
+    if (!is_live_vertex(v)) unused_vertices_.push_back(v);
+  for (Index e = real_edges_; e-- > 0;)
+    if (!is_live_edge(e)) unused_edges_.push_back(e);
+  for (Index f = real_faces_; f-- > 0;)
+    if (!is_live_face(f)) unused_faces_.push_back(f);
+}
+
+/// Doubles the room for real elements; ghosts stay behind them.
+inline void Working_mesh::make_room()
+{
+  open_borders();
+  real_vertices_ = 2 * real_vertices_ + 4;
+  real_edges_ = 2 * real_edges_ + 12;
+  real_faces_ = 2 * real_faces_ + 8;
+  for (auto* array : {&next_, &target_, &face_}) array->resize(2 * real_edges_, none);
+  feature_.resize(real_edges_, false);
+  fixed_.resize(real_vertices_, false);
+  on_feature_.resize(real_vertices_, false);
+  points_.resize(real_vertices_, Vector::Zero());
+  anchor_.resize(real_vertices_, none);
+  close_borders();
+  index_halfedges();
+  on_feature_.resize(fixed_.size(), true);
+  find_unused();
+}
+
+/// Takes the ghosts away.
+inline void Working_mesh::open_borders()
+{
+  for (Index h = 0; h < 2 * real_edges_; ++h)
+    if (face_[h] != none && is_ghost_face(face_[h])) face_[h] = none;
+  for (auto* array : {&next_, &target_, &face_}) array->resize(2 * real_edges_);
+  feature_.resize(real_edges_);
+  fixed_.resize(real_vertices_);
+  on_feature_.resize(real_vertices_);
+  points_.resize(real_vertices_);
+  live_faces_ = 0;
 }
 
 /// The border half-edge that follows where the faces on the other side of h end.

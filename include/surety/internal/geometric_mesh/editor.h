@@ -54,6 +54,8 @@ inline void replay(const Step& step, Working_mesh& mesh)
   case Disc::Kind::relocation:
     mesh.move(mesh.source(h), step.point, step.anchor);
     break;
+  case Disc::Kind::split: // no operation of a geometric mesh
+    break;
   }
 }
 
@@ -192,6 +194,8 @@ private:
       return check_collapse_topology(mesh_, disc);
     case Disc::Kind::placement:
       return check_placement_topology(mesh_, disc);
+    case Disc::Kind::split:
+      break;
     }
     return Verdict::topology;
   }

@@ -7,6 +7,7 @@
 
 #include <surety/features.h>
 #include <surety/internal/deviation/accumulated_bound.h>
+#include <surety/internal/deviation/covering_bound.h>
 #include <surety/internal/deviation/direct_bound.h>
 #include <surety/internal/geometric_mesh/concurrency.h>
 #include <surety/internal/geometric_mesh/exchange.h>
@@ -333,6 +334,10 @@ private:
     direct_ = nullptr;
     if (kind_ == Deviation_bound::accumulated) {
       deviation_ = std::make_unique<Accumulated_bound>(reference_, *working_, tolerance_);
+      return;
+    }
+    if (kind_ == Deviation_bound::covering) {
+      deviation_ = std::make_unique<Covering_bound>(reference_, *working_, tolerance_);
       return;
     }
     const Rounding rounding(Direct_bound::largest_coordinate(reference_, tolerance_));

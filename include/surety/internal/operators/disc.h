@@ -25,7 +25,7 @@ struct Disc {
     Index low, count;
   };
 
-  enum class Kind { collapse, flip, placement, relocation };
+  enum class Kind { collapse, flip, placement, relocation, split };
 
   Kind kind = Kind::collapse;
   Index halfedge = none; ///< P -> Q, or the half-edge that is flipped
@@ -52,7 +52,7 @@ struct Disc {
   bool keeps_pin = false;    ///< the T vertex that goes to the apex goes there still
   Index first = 1, last = 0; ///< of an open fan: its real faces are F_first .. F_last
 
-  bool is_closed() const { return kind == Kind::placement || kind == Kind::relocation; }
+  bool is_closed() const { return kind != Kind::collapse && kind != Kind::flip; }
   Index size() const { return static_cast<Index>(ring.size()); }
   Index after(Index i) const { return i + 1 == size() ? 0 : i + 1; }
   Index before(Index i) const { return i == 0 ? size() - 1 : i - 1; }
@@ -278,6 +278,31 @@ inline void make_placement_disc(const Working_mesh& mesh, Index h, Disc& disc)
   disc.old_place.insert(disc.old_place.end(), {0, right});
   disc.old_spoke_place.insert(disc.old_spoke_place.end(), {0, 0, right});
   if (mesh.is_feature(mesh.edge(h))) discs::find_ridge_of_placement(mesh, right, disc);
+}
+
+/// Fills `disc` with the split of h = a -> b by a vertex that is a corner of four faces then. It
+/// lies at a point that is still to be chosen; `with` are the elements that the split will take.
+inline void make_split_disc(
+    const Working_mesh& mesh, Index h, const Working_mesh::Split_elements& with, Disc& disc)
+{
+  const Index o = mesh.opposite(h);
+  const Index bc = mesh.next(h), ca = mesh.prev(h), ad = mesh.next(o), db = mesh.prev(o);
+  const Index left = mesh.face(h), right = mesh.face(o);
+  disc.clear();
+  disc.kind = Disc::Kind::split;
+  disc.halfedge = h;
+  disc.apex = with.vertex;
+  disc.anchor = none;
+  disc.ring = {mesh.target(h), mesh.target(bc), mesh.source(h), mesh.target(ad)};
+  disc.link = {mesh.edge(bc), mesh.edge(ca), mesh.edge(ad), mesh.edge(db)};
+  disc.inner = {bc, ca, ad, db};
+  disc.face = {with.face[0], left, right, with.face[1]};
+  disc.spoke = {with.edge[0], with.edge[1], mesh.edge(h), with.edge[2]};
+  disc.old_face = {left, right};
+  disc.old_place = {0, 2};
+  disc.old_spoke = {mesh.edge(h)};
+  disc.old_spoke_place = {0};
+  if (mesh.is_feature(mesh.edge(h))) disc.ridge = {0, 2};
 }
 
 } // namespace surety::internal
