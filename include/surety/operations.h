@@ -37,6 +37,7 @@ struct Operations {
   std::size_t collapses = 0;
   std::size_t flips = 0;
   std::size_t relocations = 0; ///< vertices moved
+  std::size_t splits = 0;      ///< of edges, in unit meshes
   std::array<std::size_t, number_of_verdicts> refused{};
 
   Operations& operator+=(const Operations& o)
@@ -44,6 +45,7 @@ struct Operations {
     collapses += o.collapses;
     flips += o.flips;
     relocations += o.relocations;
+    splits += o.splits;
     for (std::size_t i = 0; i < number_of_verdicts; ++i) refused[i] += o.refused[i];
     return *this;
   }

@@ -53,7 +53,7 @@ public:
   void build(std::vector<Index> faces, std::size_t largest_face, const Box_of& box_of)
   {
     face_at_ = std::move(faces);
-    place_of_.resize(largest_face + 1);
+    place_of_.assign(largest_face + 1, none);
     boxes_.clear();
     boxes_.reserve(face_at_.size());
     for (const Index f : face_at_) {
@@ -69,6 +69,21 @@ public:
 
   /// The number of faces that the tree was built over.
   std::size_t size() const { return face_at_.size(); }
+
+  /// Whether a face has a place, be it empty.
+  bool has(Index face) const { return face < place_of_.size() && place_of_[face] != none; }
+  bool is_empty(Index face) const { return boxes_[place_of_[face]] == Float_box(); }
+
+  /// Gives a face a place after all others; false where there is no room.
+  bool add(Index face)
+  {
+    if (boxes_.size() == leaves_ * leaf_size) return false;
+    if (face >= place_of_.size()) place_of_.resize(face + 1, none);
+    place_of_[face] = static_cast<Index>(boxes_.size());
+    face_at_.push_back(face);
+    boxes_.emplace_back();
+    return true;
+  }
 
   /// Gives a face a new box; the default box removes it.
   void set(Index face, const Float_box& box)

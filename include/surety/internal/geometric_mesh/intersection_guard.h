@@ -6,6 +6,7 @@
 #define SURETY_INTERNAL_GEOMETRIC_MESH_INTERSECTION_GUARD_H
 
 #include <surety/internal/geometric_mesh/box_tree.h>
+#include <surety/internal/geometric_mesh/space_filling_order.h>
 #include <surety/internal/operators/disc.h>
 #include <surety/internal/working_mesh.h>
 
@@ -54,18 +55,31 @@ public:
   }
 
   /// Follows M after it has taken the disc.
-  void commit(const Disc& disc) { refresh(disc.old_face); }
+  void commit(const Disc& disc)
+  {
+    refresh(disc.old_face);
+    if (disc.kind == Disc::Kind::split) refresh(disc.face);
+  }
   /// Follows M where some faces have changed.
   void refresh(const std::vector<Index>& faces)
   {
-    for (const Index f : faces)
-      if (!mesh_.is_ghost_face(f))
-        tree_.set(f, mesh_.is_live_face(f) ? box_of(mesh_.vertices_of(f)) : Float_box());
+    for (const Index f : faces) {
+      if (mesh_.is_ghost_face(f)) continue;
+      if (!tree_.has(f) && !tree_.add(f)) {
+        build_tree();
+        return;
+      }
+      const bool is_live = mesh_.is_live_face(f);
+      misplaced_ += is_live && tree_.is_empty(f) ? 1 : 0;
+      tree_.set(f, is_live ? box_of(mesh_.vertices_of(f)) : Float_box());
+    }
   }
-  /// To be called between operations, when none can be undone: what died is left behind.
+  /// To be called between operations, when none can be undone: what died is left behind, and what
+  /// came after the tree was built is put where it belongs.
   void clean_up()
   {
-    if (mesh_.number_of_live_faces() < tree_.size() / 2) build_tree();
+    if (mesh_.number_of_live_faces() < tree_.size() / 2 || misplaced_ > tree_.size() / 8)
+      build_tree();
   }
 
 private:
@@ -124,9 +138,19 @@ private:
   void build_tree()
   {
     std::vector<Index> live;
+    std::vector<Vector> places;
     live.reserve(mesh_.number_of_live_faces());
     for (Index f = 0; f < mesh_.number_of_real_faces(); ++f)
       if (mesh_.is_live_face(f)) live.push_back(f);
+    // Elements that splits have made are numbered as they come.
+    if (misplaced_ > 0) {
+      for (const Index f : live) places.push_back(mesh_.point(mesh_.vertices_of(f)[0]));
+      const std::vector<Index> order = space_filling_order(places);
+      std::vector<Index> sorted;
+      for (const Index i : order) sorted.push_back(live[i]);
+      live = std::move(sorted);
+      misplaced_ = 0;
+    }
     tree_.build(std::move(live), mesh_.number_of_real_faces(), [this](Index f) {
       return box_of(mesh_.vertices_of(f));
     });
@@ -197,6 +221,7 @@ private:
   const Disc* disc_ = nullptr; ///< the operation that is being looked at
   Vector origin_;
   Box_tree tree_;
+  std::size_t misplaced_ = 0; ///< faces that took a place of the tree that is not near them
   std::vector<Fan_face> fan_;
 };
 

@@ -149,6 +149,7 @@ private:
     case Disc::Kind::placement:
       return Hierarchy_record::Kind::placement;
     case Disc::Kind::relocation:
+    case Disc::Kind::split: // no operation of a hierarchy
       break;
     }
     return Hierarchy_record::Kind::relocation;
