@@ -104,6 +104,9 @@ struct size_field_t {};
 struct length_rule_t {};
 struct gradation_t {};
 struct smoothing_rounds_t {};
+struct tolerance_t {};
+struct geometric_support_t {};
+struct fewest_faces_t {};
 
 inline constexpr feature_angle_t feature_angle{};
 inline constexpr corner_angle_t corner_angle{};
@@ -138,6 +141,9 @@ inline constexpr size_field_t size_field{};
 inline constexpr length_rule_t length_rule{};
 inline constexpr gradation_t gradation{};
 inline constexpr smoothing_rounds_t smoothing_rounds{};
+inline constexpr tolerance_t tolerance{};
+inline constexpr geometric_support_t geometric_support{};
+inline constexpr fewest_faces_t fewest_faces{};
 
 // CGAL has a parameter of this name already: the same tag, or the two spellings would set
 // different values.
@@ -167,6 +173,11 @@ constexpr double maximum_aspect_ratio = 10;
 constexpr Length_rule length_rule = Length_rule::linear_size;
 constexpr double gradation = 1.3;
 constexpr unsigned smoothing_rounds = 0;
+constexpr bool fewest_faces = false;
+// Of unit meshes.
+constexpr unsigned unit_mesh_iterations = 16;
+constexpr Placement unit_mesh_placement = Placement::free;
+constexpr Metric_kind remesh_metric_kind = Metric_kind::isotropic;
 } // namespace defaults
 
 } // namespace internal
@@ -261,6 +272,13 @@ public:
   {
     return then<internal::smoothing_rounds_t>(rounds);
   }
+  auto tolerance(double length) const { return then<internal::tolerance_t>(length); }
+  template <class Support>
+  auto geometric_support(const Support& support) const
+  {
+    return then<internal::geometric_support_t>(support);
+  }
+  auto fewest_faces(bool fewest) const { return then<internal::fewest_faces_t>(fewest); }
   /// @}
 
   /// \name CGAL's parameters that this library reads, with their meaning in CGAL
@@ -600,6 +618,33 @@ inline auto gradation(double beta) { return Named_parameters<double, internal::g
 inline auto smoothing_rounds(unsigned rounds)
 {
   return Named_parameters<unsigned, internal::smoothing_rounds_t>(rounds);
+}
+
+/// \brief The largest two-sided Hausdorff distance of a unit mesh to its original.
+///
+/// A length in mesh units, positive (`double`). Default: a thousandth of the diagonal of the
+/// bounding box.
+inline auto tolerance(double length)
+{
+  return Named_parameters<double, internal::tolerance_t>(length);
+}
+
+/// \brief The smooth surface that vertices are placed on (`Geometric_support` of the same mesh).
+///
+/// Default: one with Max's normals, made on the fly.
+template <class Support>
+auto geometric_support(const Support& support)
+{
+  return Named_parameters<Support, internal::geometric_support_t>(support);
+}
+
+/// \brief Whether `remesh()` prefers few faces to a mesh that follows the curvature closely.
+///
+/// Sizes are larger by a factor of 1.4 then, and grow faster: the tolerance decides where they are
+/// too large. Default: `false`.
+inline auto fewest_faces(bool fewest)
+{
+  return Named_parameters<bool, internal::fewest_faces_t>(fewest);
 }
 
 } // namespace parameters

@@ -18,10 +18,13 @@
 #include <surety/hierarchy.h>
 #include <surety/medit_sol.h>
 #include <surety/metric.h>
+#include <surety/metric_fit.h>
 #include <surety/operations.h>
 #include <surety/parameters.h>
+#include <surety/remesh.h>
 #include <surety/statistics.h>
 #include <surety/support_on_geometric_mesh.h>
+#include <surety/unit_mesh.h>
 #include <surety/version.h>
 
 #endif // SURETY_SURETY_H

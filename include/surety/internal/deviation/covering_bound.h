@@ -89,6 +89,8 @@ public:
     return bounds;
   }
 
+  double tolerance() const { return tolerance_; }
+
   /// A triangle of T next to the middle of a face.
   Index seed_of(Index face) const { return seed_[face]; }
 

@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace surety::internal::unit_mesh {
@@ -25,14 +26,19 @@ class Editor
 public:
   Editor(
       const Ground& ground, Working_mesh& mesh, Covering_bound& bound,
-      const std::vector<bool>& is_feature, bool guards_intersections)
-    : ground_(ground), mesh_(mesh), bound_(bound), measure_(ground.is_isotropic())
+      const std::vector<bool>& is_feature, bool guards_intersections, bool places_freely)
+    : ground_(ground),
+      mesh_(mesh),
+      bound_(bound),
+      measure_(ground.is_isotropic()),
+      places_freely_(places_freely)
   {
     const Index vertices = mesh.number_of_real_vertices();
     for (Index v = 0; v < vertices; ++v) {
       stand_.push_back(mesh.is_on_feature(v) ? ground.on_curve_at(v) : ground.at_vertex(v));
       metric_.emplace_back();
       normal_.push_back(Vector::Zero());
+      offset_.push_back(0);
       take_ground(v);
     }
     for (Index e = 0; e < is_feature.size(); ++e) curve_.push_back(is_feature[e] ? e : none);
@@ -85,6 +91,9 @@ public:
   Verdict collapse(Index e, double longest);
   bool flip(Index e);
   bool relocate(Index v);
+  /// Moves a vertex along the normal, to where its faces are as far on one side of T as on the
+  /// other: room for what comes next.
+  bool centre(Index v);
 
 private:
   struct Apex {
@@ -92,6 +101,7 @@ private:
     Standpoint stand;
     Local_metric metric;
     Vector normal = Vector::Zero(); ///< zero on curves
+    double offset = 0;              ///< of the point from the support, along the normal
   };
 
   bool touches_ghost(Index e) const
@@ -111,11 +121,47 @@ private:
 
   Apex apex_at(const Standpoint& stand, const Vector& point) const
   {
-    Apex result{point, stand, ground_.metric(stand), Vector::Zero()};
+    Apex result{point, stand, ground_.metric(stand), Vector::Zero(), 0};
     if (stand.edge == none) result.normal = ground_.normal(stand);
     return result;
   }
-  Apex apex_of(Index v) const { return {mesh_.point(v), stand_[v], metric_[v], normal_[v]}; }
+  /// At a distance from the support.
+  Apex apex_above(const Standpoint& stand, double offset) const
+  {
+    Apex result = apex_at(stand, ground_.support_point(stand));
+    result.offset = offset;
+    result.point += offset * result.normal;
+    return result;
+  }
+  Apex apex_of(Index v) const
+  {
+    return {mesh_.point(v), stand_[v], metric_[v], normal_[v], offset_[v]};
+  }
+
+  /// How far the new faces are below and above T, as far as samples show.
+  std::pair<double, double> gaps(const Apex& apex) const
+  {
+    std::pair<double, double> result{0, 0};
+    const auto look = [&](const Vector& p) {
+      const Standpoint foot = ground_.nearest(p, apex.stand.face);
+      const double gap = (p - ground_.point(foot)).dot(apex.normal);
+      result.first = std::min(result.first, gap);
+      result.second = std::max(result.second, gap);
+    };
+    look(apex.point);
+    for_each_new_face([&](const std::array<Index, 3>& v) {
+      look((apex.point + mesh_.point(v[1]) + mesh_.point(v[2])) / 3);
+      look((apex.point + mesh_.point(v[1])) / 2);
+    });
+    return result;
+  }
+  void shift(Apex& apex, double share) const
+  {
+    const auto [low, high] = gaps(apex);
+    const double step = -share * (low + high);
+    apex.offset += step;
+    apex.point += step * apex.normal;
+  }
 
   const Vector& point(Index v, const Apex& apex) const
   {
@@ -207,13 +253,20 @@ private:
       stand_.resize(v + 1);
       metric_.resize(v + 1);
       normal_.resize(v + 1, Vector::Zero());
+      offset_.resize(v + 1, 0);
     }
     stand_[v] = apex.stand;
     metric_[v] = apex.metric;
     normal_[v] = apex.normal;
+    offset_[v] = apex.offset;
   }
 
   std::optional<Apex> middle_of(Index e) const;
+  double mean_offset(Index h, const Apex& apex) const
+  {
+    if (apex.stand.edge != none) return 0;
+    return (offset_[mesh_.source(h)] + offset_[mesh_.target(h)]) / 2;
+  }
   Verdict collapse_into(Index h, double longest);
   Verdict collapse_to_better_place(Index h, double longest);
   bool has_long_edge(const Apex& apex, double longest) const;
@@ -228,10 +281,12 @@ private:
   Working_mesh& mesh_;
   Covering_bound& bound_;
   Measure measure_;
+  bool places_freely_;
   std::optional<Intersection_guard> guard_;
   std::vector<Standpoint> stand_;
   std::vector<Local_metric> metric_;
   std::vector<Vector> normal_;
+  std::vector<double> offset_;
   std::vector<Index> curve_; ///< of a feature edge of M: an edge of T of the same curve
   Operations operations_;
   Disc disc_;
@@ -305,7 +360,8 @@ inline bool Editor::split(Index e)
   auto apex = middle_of(e);
   if (!apex) return refuse(Verdict::feature);
 
-  const Vector middle = apex->point, above = ground_.support_point(apex->stand);
+  const Vector middle = apex->point;
+  const Vector above = apex_above(apex->stand, mean_offset(2 * e, *apex)).point;
   const Index a = mesh_.source(2 * e), b = mesh_.target(2 * e);
   const double whole = length(e);
   Verdict verdict = Verdict::shape;
@@ -317,6 +373,7 @@ inline bool Editor::split(Index e)
     }
     verdict = check(*apex);
     if (verdict != Verdict::accept) continue;
+    apex->offset = (apex->point - ground_.support_point(apex->stand)).dot(apex->normal);
     bound_.commit(disc_);
     mesh_.split(2 * e, with, apex->point, none);
     stand_at(with.vertex, *apex);
@@ -371,7 +428,9 @@ inline Verdict Editor::collapse_to_better_place(Index h, double longest)
     const Standpoint stand = is_on_curve
         ? ground_.nearest_on_curve(aim, curve_[Working_mesh::edge(h)])
         : ground_.nearest(aim, stand_[q].face);
-    const Apex apex = apex_at(stand, ground_.support_point(stand));
+    Apex apex = apex_above(stand, is_on_curve ? 0 : (offset_[p] + offset_[q]) / 2);
+    if (places_freely_ && !is_on_curve)
+      for (int round = 0; round < 2; ++round) shift(apex, .5);
     if (has_long_edge(apex, longest) || refuses_shape(apex)) {
       verdict = Verdict::shape;
       continue;
@@ -482,7 +541,7 @@ inline bool Editor::relocate(Index v)
     const Vector target = from.point + step * (aim - from.point);
     const Standpoint stand = is_on_curve ? ground_.nearest_on_curve(target, stand_[v].edge)
                                          : ground_.nearest(target, stand_[v].face);
-    const Apex apex = apex_at(stand, ground_.support_point(stand));
+    const Apex apex = apex_above(stand, offset_[v]);
     if (!(energy(apex) < (1 - gain) * before)) continue;
     verdict = check(apex);
     if (verdict != Verdict::accept) continue;
@@ -495,6 +554,25 @@ inline bool Editor::relocate(Index v)
   }
   if (verdict != Verdict::accept) operations_.refuse(verdict);
   return false;
+}
+
+inline bool Editor::centre(Index v)
+{
+  if (!places_freely_ || mesh_.is_on_feature(v) || mesh_.is_fixed(v)) return false;
+  make_relocation_disc(mesh_, v, disc_);
+  Apex apex = apex_of(v);
+  shift(apex, .4);
+  // Not worth a check.
+  if (std::abs(apex.offset - offset_[v]) < .02 * bound_.tolerance()) return false;
+  if (refuses_shape(apex)) return false;
+  const Verdict verdict = check(apex);
+  if (verdict != Verdict::accept) return refuse(verdict);
+  bound_.commit(disc_);
+  mesh_.move(v, apex.point, none);
+  stand_at(v, apex);
+  if (guard_) guard_->commit(disc_);
+  ++operations_.relocations;
+  return true;
 }
 
 } // namespace surety::internal::unit_mesh

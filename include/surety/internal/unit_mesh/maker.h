@@ -14,6 +14,7 @@
 #include <surety/internal/unit_mesh/editor.h>
 #include <surety/internal/unit_mesh/ground.h>
 #include <surety/internal/unit_mesh/remesher.h>
+#include <surety/metric_fit.h>
 #include <surety/metric_field.h>
 
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
@@ -33,12 +34,8 @@ struct Controls {
   unsigned most_passes;
   double collapse_below; ///< metric length
   bool allow_self_intersections;
+  bool places_freely;
   double least_size; ///< the metric gives way down to this
-};
-
-/// How well M fits a metric.
-struct Fitness {
-  double unit_edges = 1, efficiency_index = 1, average_quality = 1, worst_quality = 1;
 };
 
 template <class Mesh>
@@ -49,7 +46,7 @@ public:
   Maker(
       const Mesh& mesh, const Points& points, const Features& features, const Metric_field& field,
       const Geometric_support& support, const Controls& controls,
-      std::function<bool(double)> goes_on)
+      std::function<bool(double, std::size_t)> goes_on)
     : mesh_(mesh),
       controls_(controls),
       field_(field),
@@ -65,22 +62,25 @@ public:
           points_in_order(elements_, points, scale_), journal_)),
       bound_(reference_, working_, scale_ * controls.tolerance),
       ground_(mesh, elements_, reference_, is_feature_, is_corner_, field, support, scale_),
-      editor_(ground_, working_, bound_, is_feature_, !controls.allow_self_intersections),
+      editor_(
+          ground_, working_, bound_, is_feature_, !controls.allow_self_intersections,
+          controls.places_freely),
       remesher_(editor_, controls.collapse_below, std::move(goes_on))
   {}
 
-  template <class Points>
-  void run(const Points& points)
+  void run()
   {
     remesher_.run_coarse();
     bool is_marked = false;
     for (passes_ = 0; passes_ < controls_.most_passes && !remesher_.is_cancelled(); ++passes_) {
       constexpr std::size_t few = 20;
+      remesher_.set_fraction(.2 + .6 * passes_ / controls_.most_passes);
       const std::size_t changes = remesher_.run_pass();
       // The first pass leaves much that only looks blocked.
-      is_marked = passes_ > 0 && give_way(points);
+      is_marked = passes_ > 0 && give_way();
       if (passes_ > 0 && !is_marked && changes < few) break;
     }
+    remesher_.set_fraction(.8);
     if (!remesher_.is_cancelled()) remesher_.polish();
   }
 
@@ -89,9 +89,9 @@ public:
   unsigned passes() const { return passes_; }
   const Metric_field& field() const { return field_; }
 
-  Fitness fitness() const
+  Metric_fit fitness() const
   {
-    Fitness result;
+    Metric_fit result;
     double sum = 0;
     std::size_t edges = 0, unit = 0, faces = 0;
     for (Index e = 0; e < working_.number_of_real_edges(); ++e) {
@@ -102,24 +102,25 @@ public:
       ++edges;
       unit += length >= shortest_unit && length <= longest_unit ? 1 : 0;
     }
-    result.unit_edges = double(unit) / double(edges);
+    if (edges == 0) return result;
+    result.unit_edges = 100 * double(unit) / double(edges);
     result.efficiency_index = 1 - sum / double(edges);
     sum = 0;
     for_each_face([&](Index f) {
       const double quality = editor_.quality(f);
       sum += quality;
-      result.worst_quality = std::max(result.worst_quality, quality);
+      result.Q_max = std::max(result.Q_max, quality);
       ++faces;
     });
-    result.average_quality = sum / double(faces);
+    result.Q_avg = sum / double(faces);
     return result;
   }
   /// With respect to another metric of T.
-  Fitness fitness(const Metric_field& field)
+  Metric_fit fitness(const Metric_field& field)
   {
     ground_.refresh(field);
     editor_.take_ground();
-    const Fitness result = fitness();
+    const Metric_fit result = fitness();
     ground_.refresh(field_);
     editor_.take_ground();
     return result;
@@ -183,8 +184,7 @@ private:
 
   /// Where the tolerance has kept edges too short, sizes are lowered to what is there. Tells
   /// whether they are anywhere.
-  template <class Points>
-  bool give_way(const Points&)
+  bool give_way()
   {
     constexpr double factor = .8;
     std::vector<bool> is_marked(field_.number_of_sides(), false);

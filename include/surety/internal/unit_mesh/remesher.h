@@ -21,10 +21,14 @@ constexpr double shortest_unit = 0.7071067811865476, longest_unit = 1.4142135623
 class Remesher
 {
 public:
-  /// \param goes_on asked between operations, with the share that is done; false ends the work
-  Remesher(Editor& editor, double collapse_below, std::function<bool(double)> goes_on)
+  /// \param goes_on asked between operations, with the share that is done and the number of faces;
+  ///   false ends the work
+  Remesher(Editor& editor, double collapse_below, std::function<bool(double, std::size_t)> goes_on)
     : editor_(editor), collapse_below_(collapse_below), goes_on_(std::move(goes_on))
   {}
+
+  /// How much of the work is done, for those who watch.
+  void set_fraction(double fraction) { fraction_ = fraction; }
 
   /// The vertices that an edge too short has at both ends, which the tolerance forbids to take
   /// away.
@@ -55,6 +59,7 @@ public:
     for (int sweep = 0; sweep < 3; ++sweep)
       if (flip() == 0) break;
     relocate();
+    for (int sweep = 0; sweep < 2; ++sweep) centre();
     return splits + collapses;
   }
 
@@ -63,6 +68,7 @@ public:
     for (int round = 0; round < 4; ++round) {
       flip();
       relocate();
+      centre();
     }
     for (int round = 0; round < 2; ++round) {
       collapse(shortest_unit, longest_unit);
@@ -83,7 +89,8 @@ private:
   {
     if (++asked_ % 256 != 0) return !is_cancelled_;
     editor_.clean_up();
-    if (goes_on_ && !goes_on_(0)) is_cancelled_ = true;
+    if (goes_on_ && !goes_on_(fraction_, editor_.mesh().number_of_live_faces()))
+      is_cancelled_ = true;
     return !is_cancelled_;
   }
 
@@ -163,19 +170,29 @@ private:
     return done;
   }
 
-  std::size_t relocate()
+  template <class Try>
+  std::size_t for_each_vertex(const Try& try_to)
   {
     std::size_t done = 0;
     for (Index v = 0; v < editor_.mesh().number_of_real_vertices(); ++v) {
       if (!may_go_on()) break;
-      if (editor_.mesh().is_live_vertex(v) && editor_.relocate(v)) ++done;
+      if (editor_.mesh().is_live_vertex(v) && try_to(v)) ++done;
     }
     return done;
+  }
+  std::size_t relocate()
+  {
+    return for_each_vertex([this](Index v) { return editor_.relocate(v); });
+  }
+  std::size_t centre()
+  {
+    return for_each_vertex([this](Index v) { return editor_.centre(v); });
   }
 
   Editor& editor_;
   double collapse_below_;
-  std::function<bool(double)> goes_on_;
+  std::function<bool(double, std::size_t)> goes_on_;
+  double fraction_ = 0;
   std::vector<Index> blocked_;
   std::size_t asked_ = 0;
   bool is_cancelled_ = false;
