@@ -23,6 +23,7 @@ template Curvature_field estimate_curvatures<tool::Concurrency>(
     const tool::Mesh&, const Features&, const tool::Curvature_parameters&);
 template Metric_field make_geometric_metric(
     const tool::Mesh&, const Curvature_field&, const tool::Metric_parameters&);
+template Features find_features_by_need(const tool::Mesh&, double, const tool::Need_parameters&);
 template std::size_t limit_gradation(
     const tool::Mesh&, Metric_field&, const tool::Gradation_parameters&);
 

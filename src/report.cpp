@@ -47,7 +47,8 @@ Json to_json(const Operations& operations)
       {"performed",
        {{"collapse", operations.collapses},
         {"flip", operations.flips},
-        {"relocation", operations.relocations}}},
+        {"relocation", operations.relocations},
+        {"split", operations.splits}}},
       {"refused", refused}};
 }
 

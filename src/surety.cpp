@@ -36,7 +36,8 @@ int fail(Exit_status status, const std::string& message)
 int run(int argc, char* argv[])
 {
   Exit_status status = done;
-  CLI::App program("Simplifies triangle meshes and proves how far the result lies from the input.");
+  CLI::App program("Simplifies and remeshes triangle meshes, and proves how far the result lies "
+                   "from the input.");
   program.set_version_flag("--version", "surety " SURETY_VERSION_STRING);
   program.require_subcommand(1);
   program.footer(
@@ -46,6 +47,7 @@ int run(int argc, char* argv[])
       "certificate does not hold, 130 interrupted. Unless it is 0, no file is written.\n"
       "Example: surety simplify part.stl -o part.off -t 0.1%");
   add_simplify(program, status);
+  add_remesh(program, status);
   add_compare(program, status);
   add_verify(program, status);
   add_info(program, status);

@@ -4,6 +4,9 @@
 #ifndef SURETY_METRIC_FIT_H
 #define SURETY_METRIC_FIT_H
 
+#include <array>
+#include <cstddef>
+
 namespace surety {
 
 /// \brief What a metric thinks of a mesh.
@@ -16,6 +19,13 @@ struct Metric_fit {
   double efficiency_index = 1; ///< tau, from 0 to 1
   double Q_avg = 1;            ///< mean quality of the faces, measured in the metric
   double Q_max = 1;            ///< the worst one
+
+  /// Upper limits of the bins of the histograms; the last bin has what is above them all.
+  static constexpr std::array<double, 8> length_limits{
+      .3, .6, .7071067811865476, .9, 1.3, 1.4142135623730951, 2, 5};
+  static constexpr std::array<double, 7> quality_limits{1.1, 1.2, 1.5, 2, 3, 5, 10};
+  std::array<std::size_t, 9> length_histogram{};  ///< number of edges, by metric length
+  std::array<std::size_t, 8> quality_histogram{}; ///< number of faces, by quality
 };
 
 } // namespace surety

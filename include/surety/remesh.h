@@ -38,6 +38,14 @@ constexpr double remesh_gap_constant = 1. / 12, remesh_gap_constant_for_fewest =
 constexpr double remesh_gradation_for_fewest = 1.5;
 constexpr double remesh_least_size = 6; ///< times the tolerance
 
+/// What the user says, or, where that is 0, what we say.
+inline double positive_or(double value, double otherwise, const char* name)
+{
+  if (value == 0) return otherwise;
+  require_positive(value, "remesh", name);
+  return value;
+}
+
 template <class Mesh, class NamedParameters>
 Features features_to_remesh(const Mesh& mesh, double length, const NamedParameters& np)
 {
@@ -62,10 +70,11 @@ Metric_field metric_to_remesh(
   const auto box = CGAL::Polygon_mesh_processing::bbox(mesh, as_cgal(np));
   const double diagonal
       = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
-  const double largest = choose_parameter(get_parameter(np, maximum_size), diagonal / 10);
-  require_positive(largest, "remesh", "maximum_size");
-  const double least = choose_parameter(
-      get_parameter(np, minimum_size), (std::min)(remesh_least_size * length, largest));
+  const double largest = positive_or(
+      choose_parameter(get_parameter(np, maximum_size), 0.), diagonal / 10, "maximum_size");
+  const double least = positive_or(
+      choose_parameter(get_parameter(np, minimum_size), 0.),
+      (std::min)(remesh_least_size * length, largest), "minimum_size");
   const auto sizes
       = parameters::metric_tolerance(length)
             .metric_kind(
@@ -101,6 +110,7 @@ Metric_field metric_to_remesh(
 /// The mesh is replaced as `make_unit_mesh()` describes, with the same guarantees. When an
 /// exception is thrown the mesh is unchanged.
 ///
+/// \param features of the mesh; without them they are found, see `feature_angle`.
 /// \param tolerance largest two-sided Hausdorff distance to the input, in mesh units.
 /// \throws Invalid_input when the mesh is not valid, or a parameter is out of its range.
 ///
@@ -128,17 +138,18 @@ Metric_field metric_to_remesh(
 ///   \cgalParamNBegin{gradation}
 ///     \cgalParamDescription{by which factor sizes may grow along an edge of unit length}
 ///     \cgalParamType{`double`, at least 1}
-///     \cgalParamDefault{1.3; 1.5 for fewest faces}
+///     \cgalParamDefault{0: 1.3; 1.5 for fewest faces}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{minimum_size}
 ///     \cgalParamDescription{the least size that curvature asks for}
 ///     \cgalParamType{`double`, a length in mesh units, positive}
-///     \cgalParamDefault{six times the tolerance; the tolerance may ask for less, down to a third}
+///     \cgalParamDefault{0: six times the tolerance; where the tolerance asks for less, down to a
+///       third of that}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{maximum_size}
 ///     \cgalParamDescription{the largest size}
 ///     \cgalParamType{`double`, a length in mesh units}
-///     \cgalParamDefault{a tenth of the diagonal of the bounding box}
+///     \cgalParamDefault{0: a tenth of the diagonal of the bounding box}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{maximum_aspect_ratio}
 ///     \cgalParamDescription{largest ratio of the two sizes at one place}
@@ -156,7 +167,8 @@ Metric_field metric_to_remesh(
 /// `make_unit_mesh()` reads.
 template <class Mesh, class NamedParameters = CGAL::parameters::Default_named_parameters>
 Remeshing remesh(
-    Mesh& mesh, double tolerance, const NamedParameters& np = CGAL::parameters::default_values())
+    Mesh& mesh, Features features, double tolerance,
+    const NamedParameters& np = CGAL::parameters::default_values())
 {
   using CGAL::parameters::choose_parameter;
   using CGAL::parameters::get_parameter;
@@ -165,18 +177,20 @@ Remeshing remesh(
   internal::require_positive(tolerance, function, "tolerance");
   const bool is_for_fewest = choose_parameter(
       get_parameter(np, internal::fewest_faces), internal::defaults::fewest_faces);
-  const double beta = choose_parameter(
-      get_parameter(np, internal::gradation),
-      is_for_fewest ? internal::remesh_gradation_for_fewest : internal::defaults::gradation);
+  const double beta = internal::positive_or(
+      choose_parameter(get_parameter(np, internal::gradation), 0.),
+      is_for_fewest ? internal::remesh_gradation_for_fewest : internal::defaults::gradation,
+      "gradation");
 
-  Features features = internal::features_to_remesh(mesh, tolerance, np);
   const auto points = internal::vertex_points(mesh, np);
   Curvature_field curvature = estimate_curvatures(
       mesh, features, parameters::noise_floor(tolerance / 3).vertex_point_map(points));
   Metric_field metric
       = internal::metric_to_remesh(mesh, curvature, tolerance, is_for_fewest, beta, np);
   Geometric_support support = make_geometric_support(mesh, tolerance, features, curvature, np);
-  const double least = choose_parameter(get_parameter(np, internal::minimum_size), 2 * tolerance);
+  const double least = internal::positive_or(
+      choose_parameter(get_parameter(np, internal::minimum_size), 0.), 2 * tolerance,
+      "minimum_size");
   const auto controls
       = parameters::tolerance(tolerance)
             .geometric_support(support)
@@ -204,6 +218,15 @@ Remeshing remesh(
         std::move(features), std::move(curvature), std::move(metric), std::move(support),
         std::move(unit)};
   }
+}
+
+/// \brief The same, with the features that `feature_angle` tells, or that are found by need.
+template <class Mesh, class NamedParameters = CGAL::parameters::Default_named_parameters>
+Remeshing remesh(
+    Mesh& mesh, double tolerance, const NamedParameters& np = CGAL::parameters::default_values())
+{
+  internal::require_positive(tolerance, "remesh", "tolerance");
+  return remesh(mesh, internal::features_to_remesh(mesh, tolerance, np), tolerance, np);
 }
 
 } // namespace surety

@@ -126,7 +126,7 @@ void require_metric_of(
 ///
 /// Ridges, borders and constrained edges stay curves, within the tolerance; corners and constrained
 /// vertices stay where they are. Genus, components and border loops are kept. No face that
-/// intersects another one is made, unless the input has some already.
+/// intersects another one is made; where the input has some, they are left alone.
 ///
 /// The mesh is replaced: descriptors and property maps of the input are void. The property map
 /// "e:is_feature" (`bool`) tells the curves, "f:deviation" (`double`) a bound of the distance at

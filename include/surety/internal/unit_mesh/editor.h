@@ -42,10 +42,7 @@ public:
       take_ground(v);
     }
     for (Index e = 0; e < is_feature.size(); ++e) curve_.push_back(is_feature[e] ? e : none);
-    if (guards_intersections) {
-      guard_.emplace(mesh);
-      if (!guard_->finds_none()) guard_.reset();
-    }
+    if (guards_intersections) guard_.emplace(mesh);
   }
 
   const Working_mesh& mesh() const { return mesh_; }

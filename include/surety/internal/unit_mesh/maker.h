@@ -101,6 +101,7 @@ public:
       sum += miss * miss;
       ++edges;
       unit += length >= shortest_unit && length <= longest_unit ? 1 : 0;
+      ++result.length_histogram[bin_of(length, Metric_fit::length_limits)];
     }
     if (edges == 0) return result;
     result.unit_edges = 100 * double(unit) / double(edges);
@@ -110,6 +111,7 @@ public:
       const double quality = editor_.quality(f);
       sum += quality;
       result.Q_max = std::max(result.Q_max, quality);
+      ++result.quality_histogram[bin_of(quality, Metric_fit::quality_limits)];
       ++faces;
     });
     result.Q_avg = sum / double(faces);
@@ -168,6 +170,12 @@ public:
   }
 
 private:
+  template <class Limits>
+  static std::size_t bin_of(double value, const Limits& limits)
+  {
+    return std::size_t(std::lower_bound(limits.begin(), limits.end(), value) - limits.begin());
+  }
+
   std::vector<bool> corners_in_order(const Features& features) const
   {
     std::vector<bool> result(elements_.vertices.size());
