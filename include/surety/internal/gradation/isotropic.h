@@ -11,6 +11,7 @@
 
 #include <CGAL/boost/graph/iterator.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <queue>
@@ -38,17 +39,9 @@ public:
   /// Lowers the sizes, given by vertex.
   void limit(std::vector<double>& size) const
   {
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
-    for (const auto e : edges(mesh_)) {
-      const auto h = halfedge(e, mesh_);
-      const Vertex p = source(h, mesh_), q = target(h, mesh_);
-      const double growth = this->growth(p, q);
-      if (size[q] > size[p] + growth) queue.emplace(size[p], static_cast<std::uint32_t>(p));
-      if (size[p] > size[q] + growth) queue.emplace(size[q], static_cast<std::uint32_t>(q));
-    }
-    // A vertex is pushed anew when its size falls, and once an edge at the start: it has its final
-    // size when it comes first.
-    std::vector<bool> done(size.size(), false);
+    auto queue = sources(size);
+    // A vertex is pushed anew when its size falls: it has its final size when it comes first.
+    std::vector<char> done(size.size(), false);
     while (!queue.empty()) {
       const auto [least, index] = queue.top();
       queue.pop();
@@ -67,6 +60,28 @@ public:
   }
 
 private:
+  using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>>;
+
+  /// The vertices that are too small for a neighbour, once each: a heap of all at once is made in
+  /// linear time.
+  Queue sources(const std::vector<double>& size) const
+  {
+    std::vector<char> is_source(size.size(), false);
+    for (const auto e : edges(mesh_)) {
+      const auto h = halfedge(e, mesh_);
+      const Vertex p = source(h, mesh_), q = target(h, mesh_);
+      // Only the smaller one can be too small for the other.
+      const bool is_first = size[p] < size[q];
+      const Vertex small = is_first ? p : q, large = is_first ? q : p;
+      if (size[large] > size[small] + growth(small, large)) is_source[small] = true;
+    }
+    std::vector<Entry> entries;
+    for (std::size_t i = 0; i < size.size(); ++i) {
+      if (is_source[i]) entries.emplace_back(size[i], static_cast<std::uint32_t>(i));
+    }
+    return Queue(std::greater<Entry>(), std::move(entries));
+  }
+
   double growth(Vertex p, Vertex q) const
   {
     return slope_ * (to_vector(get(points_, q)) - to_vector(get(points_, p))).norm();
