@@ -114,11 +114,11 @@ inline Errors errors_on(
 /// The geometric mean over surfaces.
 inline Errors mean_errors(
     const std::vector<Analytic_surface>& surfaces, Layout layout, int n, double noise,
-    const Estimator& estimate)
+    const Estimator& estimate, std::uint64_t seed = 1)
 {
   double median = 0, tail = 0;
   for (const auto& surface : surfaces) {
-    const Errors errors = errors_on(surface, layout, n, noise, estimate);
+    const Errors errors = errors_on(surface, layout, n, noise, estimate, seed);
     median += std::log(errors.median) / double(surfaces.size());
     tail += std::log(errors.tail) / double(surfaces.size());
   }

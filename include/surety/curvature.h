@@ -94,12 +94,13 @@ Curvature_controls curvature_controls(const NamedParameters& np, const char* fun
   return controls;
 }
 
-/// The buffers of an estimator serve a block of sides.
+/// The buffers of an estimator, which grow with the mesh, serve a block of sides: there are not
+/// more than 64 of them.
 template <class ConcurrencyTag>
 void estimate_sides(
     const curvature::Side_graph& graph, const Curvature_controls& controls, Curvature_field& field)
 {
-  constexpr Index block = 512;
+  const Index block = (std::max)(Index(512), graph.size() / 64 + 1);
   const Index blocks = (graph.size() + block - 1) / block;
   std::vector<std::size_t> fallbacks(blocks, 0);
   field.side.resize(graph.size());

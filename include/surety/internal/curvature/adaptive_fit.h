@@ -88,23 +88,52 @@ private:
   {
     const int number = samples_.size();
     double weights = 0;
+    moments_.clear();
     for (int i = 0; i < number; ++i) {
-      const double w = samples_.weight(i);
-      weights += w * w;
-      for (int j = 0; j < 16; ++j)
-        system_.row(i)[std::size_t(j)] = w * samples_.row(i)[std::size_t(j)];
+      const double square = samples_.weight(i) * samples_.weight(i);
+      weights += square;
+      moments_.add(samples_.row(i)[0], samples_.row(i)[1], samples_.height(i), square);
     }
-    system_.factor(number);
+    moments_.factor(factor_, true);
     Jet jet;
-    jet.terms = usable_terms(number, system_.rank());
-    if (jet.terms == 0) return jet;
-    solve(system_, jet);
+    jet.terms = usable_terms(number, factor_.terms());
+    double residual = 0;
+    if (jet.terms == Jet::quartic) {
+      factor_.solve(jet);
+      jet.variance.fill(0);
+      for (std::size_t i = 0; i < 3; ++i) influence_[i] = factor_.influence(jet.terms, i);
+      residual = factor_.residual(jet.terms);
+    } else if (!factor_weighted_rows(jet)) {
+      return jet;
+    } else {
+      residual = system_.residual(jet.terms);
+    }
     add_weighted_gains(jet);
     const int freedom = number - jet.terms;
-    weighted_noise_square_
-        = freedom > 0 ? 4 * system_.residual(jet.terms) * number / (freedom * weights) : 0;
+    weighted_noise_square_ = freedom > 0 ? 4 * residual * number / (freedom * weights) : 0;
     set_noise(weighted_noise_square_);
     return jet;
+  }
+
+  /// The same by Householder's factorisation, which tells what few samples determine from what
+  /// rounding makes of them. False if that is not even a quadric.
+  bool factor_weighted_rows(Jet& jet)
+  {
+    const int number = samples_.size();
+    for (int i = 0; i < number; ++i) {
+      for (std::size_t j = 0; j < 16; ++j)
+        system_.row(i)[j] = samples_.weight(i) * samples_.row(i)[j];
+    }
+    system_.factor(number);
+    jet.terms = usable_terms(number, system_.rank());
+    if (jet.terms == 0) return false;
+    const auto x = system_.solve(jet.terms, Quartic_system::heights);
+    std::copy_n(x.begin(), jet.terms, jet.coefficient.begin());
+    for (int i = 0; i < 3; ++i) {
+      influence_[std::size_t(i)]
+          = system_.back_substituted(jet.terms, system_.row_of_inverse(jet.terms, 2 + i));
+    }
+    return true;
   }
 
   /// The fit without weights, the centre not forced upon it. Its residuals tell the noise.
@@ -117,7 +146,7 @@ private:
     if (jet.terms == 0) return jet;
     const int freedom = neighbourhood.size() - jet.terms;
     if (freedom > 0)
-      set_noise((std::min)(moments_.residual(jet.terms) / freedom, weighted_noise_square_));
+      set_noise((std::min)(factor_.residual(jet.terms) / freedom, weighted_noise_square_));
     return jet;
   }
 
@@ -129,30 +158,35 @@ private:
       const Vector local = frame.to_local(graph_.point_of(sides[added_]));
       moments_.add(local.x(), local.y(), local.z());
     }
+    moments_.factor(factor_, false);
     Jet jet;
-    jet.terms = usable_terms(neighbourhood.size(), moments_.factor());
-    if (jet.terms > 0) moments_.solve(jet);
+    jet.terms = usable_terms(neighbourhood.size(), factor_.terms());
+    if (jet.terms > 0) factor_.solve(jet);
     return jet;
   }
 
-  /// With weights the gain of sample j is w_j^2 (row j) . u, u = (R^T R)^-1 e.
+  /// What noise of the samples, and of the centre, makes of the fit: with weights w the gain of
+  /// sample j is w_j^2 (row j) . u, where u is a column of (A^T W^2 A)^-1. The centre moves all
+  /// heights alike.
   void add_weighted_gains(Jet& jet) const
   {
     std::array<std::array<double, 4>, Jet::quartic> u{};
-    for (int i = 0; i < 3; ++i) {
-      const auto x = system_.back_substituted(jet.terms, system_.row_of_inverse(jet.terms, 2 + i));
-      for (int k = 0; k < jet.terms; ++k) u[std::size_t(k)][std::size_t(i)] = x[std::size_t(k)];
+    for (std::size_t k = 0; k < Jet::quartic; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) u[k][i] = influence_[i][k];
     }
-    std::array<double, 4> square{};
+    std::array<double, 4> square{}, sum{};
     for (int j = 0; j < samples_.size(); ++j) {
       std::array<double, 4> gain{};
       for (std::size_t k = 0; k < Jet::quartic; ++k) {
         for (std::size_t i = 0; i < 4; ++i) gain[i] += samples_.row(j)[k] * u[k][i];
       }
       const double w2 = samples_.weight(j) * samples_.weight(j);
-      for (std::size_t i = 0; i < 4; ++i) square[i] += w2 * w2 * gain[i] * gain[i];
+      for (std::size_t i = 0; i < 4; ++i) {
+        sum[i] += w2 * gain[i];
+        square[i] += w2 * w2 * gain[i] * gain[i];
+      }
     }
-    for (std::size_t i = 0; i < 3; ++i) jet.variance[i] += square[i];
+    for (std::size_t i = 0; i < 3; ++i) jet.variance[i] = square[i] + sum[i] * sum[i];
   }
 
   /// \brief The ladder, whose first level is `first`.
@@ -163,34 +197,42 @@ private:
   {
     const bool is_stretched = samples_.elongation() > largest_elongation;
     levels_.assign(1, first);
-    Jet result = simplest(first);
+    accepted_ = factor_;
     if (is_stretched) {
-      neighbourhood.grow_ball(samples_of_rings(4));
+      square_of_sample_ = mean_area(neighbourhood.sides()) / pi;
+      neighbourhood.grow_ball(square_of_sample_ * samples_of_rings(4));
       const Jet jet = uniform_fit(neighbourhood, frame);
-      if (jet.terms == 0) return result;
+      if (jet.terms == 0) return simplest(first);
       levels_.assign(1, jet);
-      result = simplest(jet);
+      accepted_ = factor_;
     }
     for (const int rings : {5, 8}) {
       if (!widen(neighbourhood, rings, is_stretched)) break;
       const Jet jet = fit_moments(neighbourhood, frame);
       if (jet.terms == 0 || !is_admissible(jet)) break;
       levels_.push_back(jet);
-      result = simplest(jet);
+      accepted_ = factor_;
     }
-    return result;
+    return simplest(levels_.back());
   }
 
-  /// False if no sample was added.
-  static bool widen(Neighbourhood& neighbourhood, int rings, bool is_stretched)
+  /// False if no sample was added, or there is no room for all.
+  bool widen(Neighbourhood& neighbourhood, int rings, bool is_stretched) const
   {
     const int before = neighbourhood.size();
     if (is_stretched) {
-      neighbourhood.grow_ball(samples_of_rings(rings));
+      if (!neighbourhood.grow_ball(square_of_sample_ * samples_of_rings(rings))) return false;
     } else {
       while (neighbourhood.rings() < rings && neighbourhood.add_ring()) {}
     }
     return neighbourhood.size() > before;
+  }
+
+  double mean_area(const std::vector<Index>& sides) const
+  {
+    double sum = 0;
+    for (const Index side : sides) sum += graph_.area[side];
+    return sum / double(sides.size());
   }
 
   /// As many as that many rings have on a regular mesh.
@@ -214,7 +256,8 @@ private:
     });
   }
 
-  /// The least order of a level that agrees with its highest.
+  /// \brief The least order of the last level that agrees with its highest; where one does not, a
+  /// step towards it.
   Jet simplest(const Jet& highest) const
   {
     Jet result = highest;
@@ -222,25 +265,50 @@ private:
       if (terms >= highest.terms) continue;
       Jet jet;
       jet.terms = terms;
-      moments_.solve(jet);
-      if (!agrees(jet, highest, agreement_of_orders)) break;
+      accepted_.solve(jet);
+      if (!agrees(jet, highest, agreement_of_orders)) {
+        shrink(result, jet);
+        break;
+      }
       if (jet.total_variance() < result.total_variance()) result = jet;
     }
     return result;
+  }
+
+  /// \brief Draws a jet towards a simpler one by the share of their difference that noise explains.
+  ///
+  /// By James and Stein: with d the difference of three numbers in units of its noise, the factor
+  /// 1 - 1 / |d|^2 on d lessens the mean square of the error, whatever the truth.
+  void shrink(Jet& jet, const Jet& simpler) const
+  {
+    double square = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double variance
+          = noise_square_ * (jet.variance[std::size_t(i)] - simpler.variance[std::size_t(i)]);
+      const double difference = jet.second_order(i) - simpler.second_order(i);
+      if (variance > 0) square += difference * difference / variance;
+    }
+    if (!(square > 1)) return;
+    for (std::size_t i = 0; i < jet.coefficient.size(); ++i)
+      jet.coefficient[i] += (simpler.coefficient[i] - jet.coefficient[i]) / square;
   }
 
   static constexpr int enough_samples = 24;
   static constexpr double certainty = 0.005;
   static constexpr double agreement_of_levels = 4;
   static constexpr double agreement_of_orders = 1.5;
+  static constexpr double pi = 3.14159265358979323846;
   static constexpr double largest_elongation = 9; ///< of moments: three to one in length
 
   const Side_graph& graph_;
   Samples samples_;
   Quartic_system system_;
   Moments moments_;
-  std::size_t added_ = 0;   ///< number of samples in the moments
-  std::vector<Jet> levels_; ///< admissible ones
+  Moment_factor factor_, accepted_; ///< of the moments; of the last admissible level
+  std::array<std::array<double, Jet::quartic>, 3> influence_{}; ///< of the fit with weights
+  std::size_t added_ = 0;       ///< number of samples in the moments
+  std::vector<Jet> levels_;     ///< admissible ones
+  double square_of_sample_ = 0; ///< of the radius of a disc with the area of a sample
   double floor_ = 0, noise_square_ = 0, weighted_noise_square_ = 0;
 };
 

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace surety::internal::curvature {
 
@@ -115,11 +116,10 @@ private:
       fit_ = Curvature_fit::quadratic;
       result = adaptive_(neighbourhood_, frame_, noise_floor_ / frame_.unit);
     } else if (method_ == Curvature_method::five_coefficients) {
-      while (neighbourhood_.size() < Jet::quadratic && neighbourhood_.rings() < 3
-             && neighbourhood_.add_ring()) {}
+      while (neighbourhood_.rings() < 3 && neighbourhood_.add_ring()) {}
       read_samples();
       fit_ = Curvature_fit::quadratic;
-      result = five_coefficients(samples_, quadratic_);
+      result = centred_quadric(samples_, areas(), quadratic_);
     }
     return result ? result : fall_back(side);
   }
@@ -144,6 +144,14 @@ private:
     read_samples();
     fit_ = Curvature_fit::three_coefficients;
     return three_coefficients(samples_);
+  }
+
+  /// Of the samples.
+  const std::vector<double>& areas()
+  {
+    areas_.clear();
+    for (const Index side : neighbourhood_.sides()) areas_.push_back(graph_.area[side]);
+    return areas_;
   }
 
   void read_samples() { samples_.read(graph_, neighbourhood_.sides(), frame_); }
@@ -192,6 +200,7 @@ private:
   Adaptive_fit adaptive_;
   Frame frame_;
   Samples samples_;
+  std::vector<double> areas_;
   Quadratic_system quadratic_;
   Curvature_fit fit_ = Curvature_fit::none;
 };

@@ -9,8 +9,11 @@
 
 #include <Eigen/QR>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace surety::internal::curvature {
 
@@ -26,6 +29,35 @@ inline std::optional<Estimate> five_coefficients(const Samples& samples, Quadrat
   const Jet jet = fit_quadric(samples, system);
   if (jet.terms == 0) return std::nullopt;
   return Estimate{jet, noise_of(system, samples.size(), jet.terms)};
+}
+
+/// \brief The quadric with linear terms, from a disc whose samples count by their share of the
+/// area.
+///
+/// Third derivatives spoil the second ones as far as the samples miss the symmetry of the disc.
+/// Areas make sums near integrals, which are symmetric; a weight that falls smoothly to zero at the
+/// rim of three edges leaves it open whether a sample there counts; and 1/d^2 keeps the fit local.
+/// Nothing if a disc holds too few samples.
+inline std::optional<Estimate> centred_quadric(
+    const Samples& samples, const std::vector<double>& area, Quadratic_system& system)
+{
+  constexpr double square_radius = 9;
+  constexpr double square_softening = 0.1; // as if no sample were nearer than a third of an edge
+  const double largest = area.empty() ? 0 : *std::max_element(area.begin(), area.end());
+  if (!(largest > 0)) return std::nullopt;
+  std::array<double, maximum_samples> weight;
+  int inside = 0;
+  for (int i = 0; i < samples.size(); ++i) {
+    const auto& row = samples.row(i);
+    const double square = row[2] + row[4], height = (std::max)(0., 1 - square / square_radius);
+    weight[std::size_t(i)] = std::sqrt(
+        height * height * height * (area[std::size_t(i)] / largest) / (square + square_softening));
+    if (weight[std::size_t(i)] > 0) ++inside;
+  }
+  if (inside < Jet::quadratic + 1) return std::nullopt;
+  const Jet jet = fit_quadric(samples, system, weight.data());
+  if (jet.terms == 0) return std::nullopt;
+  return Estimate{jet, noise_of(system, inside, jet.terms)};
 }
 
 /// The paper's z = a x^2 + b x y + c y^2 (section 3.2), which trusts the normal.

@@ -22,7 +22,7 @@ struct Frame {
 
   Vector to_local(const Vector& p) const
   {
-    const Vector d = (p - origin) / unit;
+    const Vector d = (p - origin) * (1 / unit);
     return {d.dot(first), d.dot(second), d.dot(normal)};
   }
   Vector to_world(const Vector& direction) const

@@ -9,38 +9,39 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <utility>
+#include <cstddef>
 #include <vector>
 
 namespace surety::internal::curvature {
 
-/// A set of vertices that forgets all of them at once.
+/// \brief A set of vertices that forgets all of them at once.
+///
+/// A mark a vertex: a neighbourhood asks some six times as often as it has vertices.
 class Vertex_set
 {
 public:
+  explicit Vertex_set(std::size_t vertices) : mark_(vertices, 0) {}
+
   void clear()
   {
-    ++generation_;
     size_ = 0;
+    if (++generation_ != 0) return;
+    std::fill(mark_.begin(), mark_.end(), 0);
+    generation_ = 1;
   }
-  bool is_full() const { return size_ == capacity; }
+  bool is_full() const { return size_ >= capacity; }
   /// False if the vertex is in the set already.
   bool insert(Index vertex)
   {
-    std::size_t slot = vertex * 0x9e3779b1u >> 22;
-    while (slots_[slot].first == generation_) {
-      if (slots_[slot].second == vertex) return false;
-      slot = (slot + 1) % slots_.size();
-    }
-    slots_[slot] = {generation_, vertex};
-    ++size_;
-    return true;
+    const bool is_new = mark_[vertex] != generation_;
+    mark_[vertex] = generation_;
+    size_ += is_new;
+    return is_new;
   }
 
 private:
   static constexpr int capacity = 768;
-  std::array<std::pair<Index, Index>, 1024> slots_{};
+  std::vector<Index> mark_;
   Index generation_ = 0;
   int size_ = 0;
 };
@@ -53,7 +54,7 @@ private:
 class Neighbourhood
 {
 public:
-  explicit Neighbourhood(const Side_graph& graph) : graph_(graph) {}
+  explicit Neighbourhood(const Side_graph& graph) : graph_(graph), seen_(graph.point.size()) {}
 
   /// Forgets what was gathered and starts at a side, whose normal must not be zero.
   void start(Index centre, const Vector& normal)
@@ -65,6 +66,8 @@ public:
     sides_.clear();
     ring_begin_ = 0;
     rings_ = 0;
+    next_ = 0;
+    has_no_room_ = false;
   }
 
   /// The sides that were gathered, without the first.
@@ -86,53 +89,85 @@ public:
     return sides_.size() > end;
   }
 
-  /// \brief Grows, nearest in space first, until there are `number` samples or no more.
+  /// \brief Grows to what lies within a ball and can be reached in it.
   ///
-  /// Begins anew the first time, and goes on from there.
-  void grow_ball(int number)
+  /// Begins anew the first time, and goes on from there. False if there is no room for all.
+  bool grow_ball(double square_radius)
   {
     if (rings_ > 0 || sides_.empty()) {
       start(centre_, normal_);
-      queue_.clear();
-      expand(centre_);
+      beyond_.clear();
+      visit(centre_);
+      defer(0, square_radius);
+    } else {
+      retry(square_radius);
     }
-    while (!queue_.empty() && size() < number) {
-      std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
-      const Index side = queue_.back().second;
-      queue_.pop_back();
-      sides_.push_back(side);
-      expand(side);
+    for (; next_ < sides_.size() && !is_full(); ++next_) {
+      const std::size_t end = sides_.size();
+      visit(sides_[next_]);
+      defer(end, square_radius);
     }
+    return !has_no_room_ && !is_full();
   }
 
 private:
-  /// Queues what is next to a side.
-  void expand(Index side)
+  /// Takes in what lay outside a smaller ball.
+  void retry(double square_radius)
   {
     const Vector& p = graph_.point_of(centre_);
-    const std::size_t end = sides_.size();
-    visit(side);
-    for (std::size_t i = end; i < sides_.size(); ++i) {
-      queue_.push_back({(graph_.point_of(sides_[i]) - p).squaredNorm(), sides_[i]});
-      std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
+    std::size_t end = 0;
+    for (const Index side : beyond_) {
+      if ((graph_.point_of(side) - p).squaredNorm() <= square_radius)
+        push(side);
+      else
+        beyond_[end++] = side;
+    }
+    beyond_.resize(end);
+  }
+
+  /// Keeps what was added from `begin` on and lies outside a ball for a larger one.
+  void defer(std::size_t begin, double square_radius)
+  {
+    const Vector& p = graph_.point_of(centre_);
+    std::size_t end = begin;
+    for (std::size_t i = begin; i < sides_.size(); ++i) {
+      const Index side = sides_[i];
+      if ((graph_.point_of(side) - p).squaredNorm() <= square_radius)
+        sides_[end++] = side;
+      else
+        beyond_.push_back(side);
     }
     sides_.resize(end);
   }
 
-  bool is_full() const { return seen_.is_full() || sides_.size() == maximum_samples; }
+  bool is_full() const { return seen_.is_full() || sides_.size() == std::size_t(maximum_samples); }
 
   /// Of a vertex with very many neighbours every so many-th is taken, so that no vertex costs more
   /// than a constant.
   void visit(Index side)
   {
-    if (side != centre_ && graph_.is_ridge_end[side]) return;
+    if (is_full() || (side != centre_ && graph_.is_ridge_end[side])) return;
     const Index step = 1 + graph_.degree(side) / largest_degree;
-    for (Index i = graph_.first[side]; i < graph_.first[side + 1] && !is_full(); i += step) {
+    // Whether a vertex is new cannot be foretold: no branch depends on it.
+    std::array<Index, largest_degree + 1> fresh;
+    std::size_t number = 0;
+    for (Index i = graph_.first[side]; i < graph_.first[side + 1]; i += step) {
       const Index other = graph_.neighbour[i];
-      if (other == Sides::no_side || !seen_.insert(graph_.vertex[other])) continue;
-      if (graph_.normal[other].dot(normal_) < smallest_cosine) continue;
-      sides_.push_back(other);
+      if (other == Sides::no_side) continue;
+      fresh[number] = other;
+      number += seen_.insert(graph_.vertex[other]);
     }
+    for (std::size_t i = 0; i < number; ++i) {
+      if (graph_.normal[fresh[i]].dot(normal_) >= smallest_cosine) push(fresh[i]);
+    }
+  }
+
+  void push(Index side)
+  {
+    if (sides_.size() < std::size_t(maximum_samples))
+      sides_.push_back(side);
+    else
+      has_no_room_ = true;
   }
 
   static constexpr Index largest_degree = 64;
@@ -143,9 +178,11 @@ private:
   Vector normal_ = Vector::Zero();
   Vertex_set seen_;
   std::vector<Index> sides_;
-  std::vector<std::pair<double, Index>> queue_;
+  std::vector<Index> beyond_; ///< reached, but outside the ball
+  std::size_t next_ = 0;      ///< of the ball: the first whose neighbours are due
   std::size_t ring_begin_ = 0;
   int rings_ = 0;
+  bool has_no_room_ = false; ///< for all that was reached
 };
 
 } // namespace surety::internal::curvature

@@ -40,13 +40,18 @@ void solve_uniform(const System& system, Jet& jet)
 }
 
 /// z = p x + q y + a x^2 + b x y + c y^2; without terms if the samples do not determine it.
-inline Jet fit_quadric(const Samples& samples, Quadratic_system& system)
+///
+/// Equations are multiplied by `weight`, if there is one; variances are then those for noise that
+/// the weights undo.
+inline Jet fit_quadric(
+    const Samples& samples, Quadratic_system& system, const double* weight = nullptr)
 {
   for (int i = 0; i < samples.size(); ++i) {
+    const double w = weight == nullptr ? 1 : weight[i];
     auto& row = system.row(i);
-    std::copy_n(samples.row(i).begin(), Jet::quadratic, row.begin());
-    row[Quadratic_system::heights] = samples.height(i);
-    row[Quadratic_system::ones] = 1;
+    for (std::size_t j = 0; j < Jet::quadratic; ++j) row[j] = w * samples.row(i)[j];
+    row[Quadratic_system::heights] = w * samples.height(i);
+    row[Quadratic_system::ones] = w;
     row[7] = 0;
   }
   system.factor(samples.size());

@@ -31,6 +31,7 @@ struct Side_graph {
   std::vector<char> is_closed;  ///< by side: whether the last neighbour and the first share a face
   std::vector<char> is_ridge_end; ///< by side: whether its one sector has a feature edge in it
   std::vector<Vector> normal;     ///< by side: of Max, unit, zero where the faces have none
+  std::vector<double> area;       ///< by side: a third of its faces
 
   Index size() const { return static_cast<Index>(vertex.size()); }
   const Vector& point_of(Index side) const { return point[vertex[side]]; }
@@ -66,6 +67,20 @@ inline Vector side_normal(const Side_graph& graph, Index side, Normal_weights we
   return sum.allFinite() ? unit(sum) : Vector(Vector::Zero());
 }
 
+/// A third of the area of the faces of a side: its share of the surface.
+inline double side_area(const Side_graph& graph, Index side)
+{
+  const Vector& p = graph.point_of(side);
+  const Index* const neighbour = graph.neighbour.data() + graph.first[side];
+  const Index degree = graph.degree(side);
+  double twice = 0;
+  for (Index i = graph.is_closed[side] ? 0 : 1; i < degree; ++i) {
+    const Vector u = graph.point_of(neighbour[i == 0 ? degree - 1 : i - 1]) - p;
+    twice += u.cross(graph.point_of(neighbour[i]) - p).norm();
+  }
+  return twice / 6;
+}
+
 template <class Mesh, class Points>
 class Side_graph_maker
 {
@@ -82,8 +97,10 @@ public:
     graph_.vertex = sides_.vertex;
     link_sides();
     graph_.normal.resize(graph_.size());
+    graph_.area.resize(graph_.size());
     for_each_index<ConcurrencyTag>(graph_.size(), [this](Index s) {
       graph_.normal[s] = side_normal(graph_, s, Normal_weights::max);
+      graph_.area[s] = side_area(graph_, s);
     });
     return std::move(graph_);
   }
