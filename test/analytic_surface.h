@@ -79,12 +79,12 @@ struct Analytic_surface {
     const double step = 1e-4;
     const auto there
         = [&](const V& direction) { return second_order(projected(x + step * direction)); };
-    c.min_derivative
-        = (there(c.min_direction).min_curvature - there(-c.min_direction).min_curvature)
-        / (2 * step);
-    c.max_derivative
-        = (there(c.max_direction).max_curvature - there(-c.max_direction).max_curvature)
-        / (2 * step);
+    const Side_curvature after = there(c.min_direction), before = there(-c.min_direction);
+    const Side_curvature left = there(c.max_direction), right = there(-c.max_direction);
+    c.min_derivative = (after.min_curvature - before.min_curvature) / (2 * step);
+    c.max_cross_derivative = (after.max_curvature - before.max_curvature) / (2 * step);
+    c.max_derivative = (left.max_curvature - right.max_curvature) / (2 * step);
+    c.min_cross_derivative = (left.min_curvature - right.min_curvature) / (2 * step);
     return c;
   }
 };

@@ -174,9 +174,7 @@ Metric_field make_geometric_metric(
   Metric_field metric(
       kind, curvature.sides, internal::metric::normals_of(mesh, curvature, points),
       internal::metric::tangents_of(curvature), range.maximum);
-  internal::metric::Geometric_metric_maker<Mesh, std::decay_t<decltype(points)>>(
-      mesh, points, curvature, law, range)
-      .fill(metric);
+  internal::metric::Geometric_metric_maker<Mesh>(mesh, curvature, law, range).fill(metric);
   if constexpr (!CGAL::parameters::is_default_parameter<
                     NamedParameters, internal::size_field_t>::value) {
     const auto& field = CGAL::parameters::get_parameter_reference(np, internal::size_field);

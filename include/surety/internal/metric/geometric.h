@@ -39,22 +39,22 @@ struct Aligned_tensor {
 };
 
 /// \brief Fills a metric field side by side, then aligns it with the curves of features.
-template <class Mesh, class Points>
+template <class Mesh>
 class Geometric_metric_maker
 {
   using Vertex = typename boost::graph_traits<Mesh>::vertex_descriptor;
 
 public:
   Geometric_metric_maker(
-      const Mesh& mesh, const Points& points, const Curvature_field& curvature, const Size_law& law,
+      const Mesh& mesh, const Curvature_field& curvature, const Size_law& law,
       const Size_range& range)
-    : mesh_(mesh), points_(points), curvature_(curvature), law_(law), range_(range)
+    : mesh_(mesh), curvature_(curvature), law_(law), range_(range)
   {}
 
   void fill(Metric_field& metric) const
   {
     for (const Vertex v : vertices(mesh_)) {
-      for (auto s = first(v); s < last(v); ++s) set_side(metric, v, s);
+      for (auto s = first(v); s < last(v); ++s) set_side(metric, s);
       if (metric.tangent(v).isZero(0)) {
         if (is_corner(v)) make_isotropic(metric, v);
       } else if (metric.kind() == Metric_kind::isotropic) {
@@ -69,10 +69,9 @@ private:
   std::uint32_t first(Vertex v) const { return curvature_.sides.first[v]; }
   std::uint32_t last(Vertex v) const { return curvature_.sides.first[v + 1]; }
 
-  void set_side(Metric_field& metric, Vertex v, std::uint32_t s) const
+  void set_side(Metric_field& metric, std::uint32_t s) const
   {
-    const Principal_growth growth
-        = principal_growth(mesh_, points_, curvature_, v, s, metric.normal(s));
+    const Principal_growth growth = principal_growth(curvature_.side[s], metric.normal(s));
     if (metric.kind() == Metric_kind::isotropic) {
       metric.set_size(s, isotropic_size(growth.values, law_, range_));
     } else {
@@ -128,7 +127,6 @@ private:
   }
 
   const Mesh& mesh_;
-  const Points& points_;
   const Curvature_field& curvature_;
   const Size_law& law_;
   const Size_range& range_;

@@ -90,6 +90,17 @@ inline double shape_ratio_of_sizes(const Curvature_and_growth& c, double h1, dou
   return c.is_elliptic && first > 0 ? (std::min)(1., second / first) : 0;
 }
 
+/// \brief The largest s within reach, given both terms k h^2 ahead and the smaller one's here.
+///
+/// Where the smaller curvature changes its sign the surface is elliptic on one hand: what it has
+/// grown to beyond zero counts.
+inline double shape_ratio_ahead(
+    const Curvature_and_growth& c, double first, double second, double second_here)
+{
+  if (!c.is_elliptic) second -= 2 * second_here;
+  return first > 0 ? std::clamp(second / first, 0., 1.) : 0;
+}
+
 /// Sizes are fixed points, since curvature counts where the edge ends. In each step the logarithm
 /// of an error shrinks at least fourfold under a tolerance and vanishes to first order under the
 /// other laws, so that this number of steps leaves nothing to double precision.
@@ -106,12 +117,11 @@ inline std::array<double, 2> principal_sizes(
   double h1 = range.clamp(law.size(c.larger, 0));
   double h2 = range.clamp(law.size(c.smaller, 0));
   for (int step = 0; step < fixed_point_steps; ++step) {
-    const double s = shape_ratio_of_sizes(c, h1, h2);
     const double k1 = ahead(c.larger, c.larger_along_its_own, h1 / 2);
-    const double next_1 = range.clamp(law.size(k1, s));
-    h1 = std::sqrt(h1 * next_1);
     const double k2
         = ahead(ahead(c.smaller, c.smaller_along_its_own, h2 / 2), c.smaller_across, h1);
+    const double s = shape_ratio_ahead(c, k1 * h1 * h1, k2 * h2 * h2, c.smaller * h2 * h2);
+    h1 = std::sqrt(h1 * range.clamp(law.size(k1, s)));
     const double next_2 = range.clamp(law.size(k2, s));
     h2 = (std::min)(std::sqrt(h2 * next_2), range.aspect_ratio * h1);
   }
