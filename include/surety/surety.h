@@ -25,6 +25,7 @@
 #include <surety/statistics.h>
 #include <surety/support_on_geometric_mesh.h>
 #include <surety/unit_mesh.h>
+#include <surety/support_tessellation.h>
 #include <surety/version.h>
 
 #endif // SURETY_SURETY_H
