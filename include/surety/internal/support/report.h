@@ -36,7 +36,8 @@ struct Support_report {
   double sampled_saturated_share = 0; ///< of sample points that do: an estimate
   double refused_share = 0;           ///< of faces refused by the fold guard
   double flattened_share = 0;         ///< of faces scaled down
-  double tangent_share = 0;           ///< of faces tangent to their normals and not saturated
+  double tangent_share = 0;           ///< of tangent faces that cannot saturate: a lower bound
+  double sampled_tangent_share = 0;   ///< of tangent faces where samples do not: an estimate
   std::vector<std::uint32_t> faces_to_refine; ///< those that a finer geometric mesh would serve
 };
 
@@ -73,14 +74,16 @@ inline void measure(
     report.refused_faces += state.is_refused;
     report.flattened_faces += state.is_flattened;
     report.saturated_share += state.may_saturate * area;
-    report.sampled_saturated_share += sampled_saturation(surface, f) * area;
+    const double saturated = sampled_saturation(surface, f);
+    report.sampled_saturated_share += saturated * area;
     report.refused_share += state.is_refused * area;
     report.flattened_share += state.is_flattened * area;
     report.tangent_share += (state.is_tangent && !state.may_saturate) * area;
+    report.sampled_tangent_share += state.is_tangent * (1 - saturated) * area;
   }
   for (double* share :
        {&report.saturated_share, &report.sampled_saturated_share, &report.refused_share,
-        &report.flattened_share, &report.tangent_share}) {
+        &report.flattened_share, &report.tangent_share, &report.sampled_tangent_share}) {
     *share = total > 0 ? (std::min)(1., *share / total) : 0;
   }
 }
