@@ -3,12 +3,11 @@
 
 #include "colors.h"
 #include "failure.h"
+#include "ply.h"
 #include "vtp.h"
 
 #include <surety/internal/curvature/value.h>
 #include <surety/medit_sol.h>
-
-#include <CGAL/Surface_mesh/IO.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -138,42 +137,14 @@ CGAL::IO::Color color_of(double value, const Color_range& range, const Field_req
   return diverging(2 * position - 1);
 }
 
-/// PLY knows numbers only: arrays of several components become one property each.
-void add_properties(Mesh& mesh, const Vtp_array& array)
-{
-  constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
-  const auto number = static_cast<std::size_t>(array.components);
-  for (std::size_t c = 0; c < number; ++c) {
-    std::string name = "v:" + array.name;
-    if (number == 3) name = name + "_" + axes[c];
-    if (number == 9) name = name + "_" + axes[c / 3] + axes[c % 3];
-    if (number == 9 && c % 3 < c / 3) continue; // symmetric
-    if (array.is_integral) {
-      const auto map = mesh.add_property_map<Vertex, int>(name, 0).first;
-      for (const Vertex v : mesh.vertices()) put(map, v, int(array.values[v * number + c]));
-    } else {
-      const auto map = mesh.add_property_map<Vertex, double>(name, 0).first;
-      for (const Vertex v : mesh.vertices()) put(map, v, array.values[v * number + c]);
-    }
-  }
-}
-
 void write_ply(
     std::ostream& stream, const Mesh& mesh, const Fields& fields, const Field_request& request)
 {
-  Mesh copy; // PLY writes all properties of a mesh: this one has just those that it shall have
-  for (const Vertex v : mesh.vertices()) copy.add_vertex(mesh.point(v));
-  for (const auto face : mesh.faces()) {
-    const auto h = mesh.halfedge(face);
-    copy.add_face(mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)));
-  }
-  const auto color = copy.add_property_map<Vertex, CGAL::IO::Color>("v:color").first;
   const auto values = colored_values(mesh, fields, request);
   const Color_range range = color_range(mesh, fields, request);
-  for (const Vertex v : copy.vertices()) put(color, v, color_of(values[v], range, request));
-  for (const Vtp_array& array : vertex_data(mesh, fields, request)) add_properties(copy, array);
-  CGAL::IO::set_binary_mode(stream);
-  CGAL::IO::write_PLY(stream, copy);
+  std::vector<CGAL::IO::Color> colors;
+  for (const double value : values) colors.push_back(color_of(value, range, request));
+  write_colored_ply(stream, mesh, colors, vertex_data(mesh, fields, request));
 }
 
 } // namespace
@@ -195,7 +166,8 @@ void require_field_format(
     const std::string& file, const std::string& extension, const Field_request& request)
 {
   if (request.is_empty()) {
-    throw Failure(usage, "--output needs --curvature or --metric: what shall be written?");
+    throw Failure(
+        usage, "--output needs --curvature, --metric or --support: what shall be written?");
   }
   if (extension == "sol" && !request.metric) {
     throw Failure(usage, file + ": a sol file holds a metric; give --metric");

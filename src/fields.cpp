@@ -154,8 +154,6 @@ void add_field_options(CLI::App& command, Field_request& request)
   const auto add = [&](const char* name, auto& value, const char* text) {
     return command.add_option(name, value, text)->needs(metric);
   };
-  add("-t,--tolerance", request.tolerance,
-      "of the metric: largest distance of a face to the surface, a length or per cent");
   add("--metric-kind", request.kind, "whether sizes depend on direction")
       ->transform(CLI::CheckedTransformer(names_of_kinds()).description("isotropic|anisotropic"))
       ->default_str(name_of(request.kind, names_of_kinds()));
@@ -171,9 +169,6 @@ void check(const Field_request& request)
 {
   if (request.metric && request.tolerance.empty()) {
     throw Failure(usage, "--metric needs --tolerance: how far may a face be from the surface?");
-  }
-  if (request.is_empty() && !request.noise_floor.empty()) {
-    throw Failure(usage, "--noise-floor needs --curvature or --metric");
   }
   const std::array<std::pair<const char*, const std::string*>, 4> lengths
       = {{{"--noise-floor", &request.noise_floor},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// surety info: is this file good input, and what is in it? With curvature and metric on request.
+// surety info: is this file good input, and what is in it? With curvature, metric and geometric
+// support on request.
 #include "commands.h"
 #include "field_writing.h"
 #include "fields.h"
@@ -9,6 +10,7 @@
 #include "output_files.h"
 #include "report.h"
 #include "soup_reading.h"
+#include "support.h"
 
 #include <iostream>
 #include <optional>
@@ -19,6 +21,7 @@ namespace {
 struct Info {
   std::string input, output, report;
   Field_request fields;
+  Support_request support;
   Reading reading;
   double feature_angle = 40, corner_angle = internal::defaults::corner_angle;
   bool is_quiet = false;
@@ -26,16 +29,39 @@ struct Info {
   void run() const;
 
 private:
-  void write_field_file(Output_files& files, const Mesh& mesh, const Fields& found) const;
+  void check_options() const;
+  void write_output(
+      Output_files& files, const Mesh& mesh, const std::optional<Fields>& found,
+      const std::optional<Support>& surface) const;
   void describe_fields(Json& json, const Mesh& mesh, const Fields& found) const;
   void print(const Mesh_statistics& statistics, const Features& features) const;
   void print(const Fields& found) const;
 };
 
+void Info::check_options() const
+{
+  const bool needs_nothing = fields.is_empty() && !support.is_wanted;
+  if (needs_nothing && !fields.noise_floor.empty())
+    throw Failure(usage, "--noise-floor needs --curvature, --metric or --support");
+  if (!fields.metric && !support.is_wanted && !fields.tolerance.empty())
+    throw Failure(usage, "--tolerance needs --metric or --support");
+  if (support.is_wanted && fields.tolerance.empty())
+    throw Failure(usage, "--support needs --tolerance: how far may it be from the mesh?");
+  check(fields);
+  if (output.empty()) return;
+  if (!support.is_wanted) return require_field_format(output, extension_of(output), fields);
+  if (!fields.is_empty()) {
+    throw Failure(
+        usage,
+        "--output: a support has points of its own; write --curvature and --metric to another "
+        "file");
+  }
+  require_support_format(output, extension_of(output));
+}
+
 void Info::run() const
 {
-  check(fields);
-  if (!output.empty()) require_field_format(output, extension_of(output), fields);
+  check_options();
   Output_files files({input});
   if (!output.empty()) files.announce(output);
   if (!report.empty()) files.announce(report);
@@ -48,6 +74,8 @@ void Info::run() const
   watch.lap("features");
   std::optional<Fields> found;
   if (!fields.is_empty()) found = make_fields(mesh, features, fields, watch);
+  std::optional<Support> surface;
+  if (support.is_wanted) surface = make_support(mesh, support, watch);
 
   Json json = new_report("info");
   json["input"] = to_json(input, statistics);
@@ -58,8 +86,9 @@ void Info::run() const
          {"border_edges", features.borders},
          {"corners", features.corners}};
   if (found) describe_fields(json, mesh, *found);
+  if (surface) json["support"] = describe(*surface);
   if (!output.empty()) {
-    write_field_file(files, mesh, *found);
+    write_output(files, mesh, found, surface);
     watch.lap("write");
   }
   json["seconds"] = watch.seconds();
@@ -70,12 +99,21 @@ void Info::run() const
   if (is_quiet) return;
   print(statistics, features);
   if (found) print(*found);
+  if (surface) std::cout << to_text(*surface);
+  if (!output.empty()) std::cout << "  written to " << output << '\n';
 }
 
-void Info::write_field_file(Output_files& files, const Mesh& mesh, const Fields& found) const
+void Info::write_output(
+    Output_files& files, const Mesh& mesh, const std::optional<Fields>& found,
+    const std::optional<Support>& surface) const
 {
+  const std::string extension = extension_of(output);
   files.write(output, [&](std::ostream& stream) {
-    write_fields(stream, extension_of(output), mesh, found, fields);
+    if (surface) {
+      write_support(stream, extension, mesh, surface->surface, support.subdivisions);
+    } else {
+      write_fields(stream, extension, mesh, *found, fields);
+    }
   });
 }
 
@@ -103,7 +141,6 @@ void Info::print(const Fields& found) const
 {
   if (fields.curvature) std::cout << to_text(found.curvature);
   if (fields.metric) std::cout << to_text(*found.metric);
-  if (!output.empty()) std::cout << "  written to " << output << '\n';
 }
 
 } // namespace
@@ -114,12 +151,12 @@ void add_info(CLI::App& program, Exit_status&)
       = program.add_subcommand("info", "Validity, features and statistics of a mesh");
   const auto info = std::make_shared<Info>();
   command->add_option("IN", info->input, "mesh to look at: off, obj, ply or stl")->required();
-  command
-      ->add_option(
-          "--feature-angle", info->feature_angle,
-          "count edges that turn by more, in degrees, as ridges")
-      ->check(between(0, 180))
-      ->capture_default_str();
+  const auto feature_angle = command
+                                 ->add_option(
+                                     "--feature-angle", info->feature_angle,
+                                     "count edges that turn by more, in degrees, as ridges")
+                                 ->check(between(0, 180))
+                                 ->capture_default_str();
   command
       ->add_option(
           "--corner-angle", info->corner_angle,
@@ -128,14 +165,27 @@ void add_info(CLI::App& program, Exit_status&)
       ->capture_default_str();
   command->add_flag("--triangulate", info->reading.triangulate, "split faces with more corners");
   add_field_options(*command, info->fields);
+  add_support_options(*command, info->support);
+  command->add_option(
+      "-t,--tolerance", info->fields.tolerance,
+      "largest distance of a face of the metric to the surface, and of the support to the mesh: a "
+      "length or per cent");
   command->add_option(
       "-o,--output", info->output,
-      "write the mesh with these fields: vtp; ply, coloured; or the metric as sol");
+      "write the mesh with these fields: vtp; ply, coloured; or the metric as sol. Or the support: "
+      "vtp or ply");
   command->add_option("--report", info->report, "write all figures to this JSON file");
   command->add_flag("--quiet", info->is_quiet, "print nothing but errors");
   command->footer(
       "Example: surety info part.stl --curvature --metric --tolerance 0.1% -o part.vtp");
-  command->callback([info] { info->run(); });
+  command->callback([info, feature_angle] {
+    Support_request& support = info->support;
+    support.tolerance = info->fields.tolerance;
+    support.noise_floor = info->fields.noise_floor;
+    support.corner_angle = info->corner_angle;
+    if (feature_angle->count() > 0) support.feature_angle = info->feature_angle;
+    info->run();
+  });
 }
 
 } // namespace surety::tool

@@ -18,6 +18,7 @@ template Hausdorff_distance hausdorff_distance(
     const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&,
     const tool::No_parameters&);
 template Features find_features(const tool::Mesh&, const tool::Feature_parameters&);
+template Features find_features_by_need(const tool::Mesh&, double, const tool::Need_parameters&);
 template Mesh_statistics mesh_statistics(const tool::Mesh&, const tool::No_parameters&);
 template Curvature_field estimate_curvatures<tool::Concurrency>(
     const tool::Mesh&, const Features&, const tool::Curvature_parameters&);
@@ -26,5 +27,7 @@ template Metric_field make_geometric_metric(
 template Features find_features_by_need(const tool::Mesh&, double, const tool::Need_parameters&);
 template std::size_t limit_gradation(
     const tool::Mesh&, Metric_field&, const tool::Gradation_parameters&);
+template Geometric_support make_geometric_support(
+    const tool::Mesh&, double, const Features&, const Curvature_field&, const tool::No_parameters&);
 
 } // namespace surety

@@ -15,6 +15,7 @@
 #include <surety/features.h>
 #include <surety/features_by_need.h>
 #include <surety/geometric_mesh.h>
+#include <surety/geometric_support.h>
 #include <surety/gradation.h>
 #include <surety/medit_sol.h>
 #include <surety/metric.h>
@@ -74,6 +75,8 @@ inline auto feature_parameters(double feature_angle, double corner_angle)
   return parameters::feature_angle(feature_angle).corner_angle(corner_angle);
 }
 
+inline auto need_parameters(double corner_angle) { return parameters::corner_angle(corner_angle); }
+
 inline auto curvature_parameters(double noise_floor)
 {
   return parameters::noise_floor(noise_floor);
@@ -129,6 +132,7 @@ using No_parameters = CGAL::parameters::Default_named_parameters;
 using Simplify_parameters = decltype(simplify_parameters(
     std::declval<Controls>(), std::declval<Tolerances>(), std::declval<Visitor>()));
 using Feature_parameters = decltype(feature_parameters(0, 0));
+using Need_parameters = decltype(need_parameters(0));
 using Curvature_parameters = decltype(curvature_parameters(0));
 using Metric_parameters = decltype(metric_parameters(std::declval<Metric_controls>()));
 using Gradation_parameters = decltype(parameters::gradation(1));
@@ -152,6 +156,8 @@ extern template Hausdorff_distance hausdorff_distance(
     const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&,
     const tool::No_parameters&);
 extern template Features find_features(const tool::Mesh&, const tool::Feature_parameters&);
+extern template Features find_features_by_need(
+    const tool::Mesh&, double, const tool::Need_parameters&);
 extern template Mesh_statistics mesh_statistics(const tool::Mesh&, const tool::No_parameters&);
 extern template Curvature_field estimate_curvatures<tool::Concurrency>(
     const tool::Mesh&, const Features&, const tool::Curvature_parameters&);
@@ -162,6 +168,8 @@ extern template Features find_features_by_need(
 extern template Remeshing remesh(tool::Mesh&, Features, double, const tool::Remesh_parameters&);
 extern template std::size_t limit_gradation(
     const tool::Mesh&, Metric_field&, const tool::Gradation_parameters&);
+extern template Geometric_support make_geometric_support(
+    const tool::Mesh&, double, const Features&, const Curvature_field&, const tool::No_parameters&);
 
 } // namespace surety
 
