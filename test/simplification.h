@@ -41,7 +41,9 @@ Vertices promised_vertices(const NamedParameters& np)
   // The accumulated bound has no operation that moves vertices.
   if (bound == Deviation_bound::accumulated) return Vertices::of_input;
   if (placement == Placement::free) return Vertices::anywhere;
-  if (effort == Effort::fast) return Vertices::of_input;
+  const auto sweeps = choose_parameter(
+      get_parameter(np, surety::internal::smoothing_sweeps), defaults::smoothing_sweeps);
+  if (effort == Effort::fast && sweeps == 0) return Vertices::of_input;
   // Few points of a face have single-precision coordinates.
   return choose_parameter(get_parameter(np, surety::internal::single_precision), false)
       ? Vertices::anywhere

@@ -4,6 +4,7 @@
 // that stay, stages and numbers of faces; and large meshes, which it simplifies in patches.
 #include <surety/geometric_mesh.h>
 
+#include "cad_meshes.h"
 #include "simplification.h"
 
 #include <CGAL/Simple_cartesian.h>
@@ -17,6 +18,8 @@ using surety::make_geometric_mesh;
 using surety::Placement;
 using surety::Progress;
 namespace with = surety::parameters;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 const std::vector<Method> methods = {on_surface_fast, on_surface, free_fast, free_standard};
 
@@ -141,6 +144,69 @@ TEST(Normal_tolerance, that_is_out_of_range_is_refused)
     Mesh mesh = icosphere(2);
     EXPECT_THROW(make_geometric_mesh(mesh, 0.1, with::normal_tolerance(bad)), Invalid_input);
   }
+}
+
+// ---- ridges ----
+
+Mesh wavy_sheet()
+{
+  return height_field(
+      24, [](double x, double y) { return 0.1 * std::sin(4 * x) * std::cos(3 * y); });
+}
+
+TEST(Ridge_tolerance, bounds_curves_by_less_than_the_surface)
+{
+  const Mesh tube = cylinder(60, 15), sheet = wavy_sheet();
+  for (const Mesh& input : {tube, sheet})
+    for (const Method& method : methods) {
+      std::size_t last = 0;
+      for (const double largest : {1.0, 0.01, 0.001}) {
+        const Simplification s = simplified(
+            input, 0.04, parameters_of(method).feature_angle(40).ridge_tolerance(largest));
+        expect_sound(s);
+        const auto curves = [](const Mesh& mesh) {
+          return CGAL::is_closed(mesh) ? sharp_curves(mesh, 40) : border_curves(mesh);
+        };
+        const double distance = curve_distance(curves(s.input), curves(s.output));
+        const auto check = check_certificate(s.input, s.output, s.certificate);
+        EXPECT_LE(check.curve_bound, std::min(0.04, largest)) << method.name;
+        EXPECT_LE(distance, check.curve_bound + sampling_error(input)) << method.name;
+        // What is measured is about what is proven.
+        EXPECT_GE(distance, 0.5 * check.curve_bound) << method.name;
+        const std::size_t edges = curves(s.output).size();
+        EXPECT_GT(edges, last) << method.name << ' ' << largest;
+        last = edges;
+      }
+    }
+}
+
+TEST(Ridge_tolerance, above_that_of_the_surface_changes_nothing)
+{
+  const auto with_ridges = with::feature_angle(40).placement(Placement::free);
+  const Mesh input = cylinder(60, 15);
+  EXPECT_TRUE(is_identical(
+      simplified(input, 0.03, with_ridges).output,
+      simplified(input, 0.03, with_ridges.ridge_tolerance(0.5)).output));
+}
+
+TEST(Ridge_tolerance, is_proven_to_be_nothing_where_there_are_no_curves)
+{
+  const Simplification s = simplified(icosphere(3), 0.03, with::ridge_tolerance(0.001));
+  EXPECT_EQ(check_certificate(s.input, s.output, s.certificate).curve_bound, 0);
+}
+
+TEST(Ridge_tolerance, that_cannot_be_kept_is_refused)
+{
+  for (const double bad : {0.0, -3.0, infinity, std::nan("")}) {
+    Mesh mesh = icosphere(2);
+    EXPECT_THROW(make_geometric_mesh(mesh, 0.1, with::ridge_tolerance(bad)), Invalid_input);
+  }
+  Mesh mesh = icosphere(2);
+  EXPECT_THROW(
+      make_geometric_mesh(
+          mesh, 0.1,
+          with::ridge_tolerance(0.01).deviation_bound(surety::Deviation_bound::accumulated)),
+      Invalid_input);
 }
 
 // ---- faces that stay ----

@@ -76,6 +76,9 @@ struct Certificate_check {
   std::string reason;
   /// The proven distance, rebuilt from the record and rounded up; infinite if nothing is proven.
   double bound = std::numeric_limits<double>::infinity();
+  /// A proven bound of the distance, both ways, between the recorded ridges and borders of the two
+  /// as curves; 0 where there are none, infinite if nothing is proven.
+  double curve_bound = std::numeric_limits<double>::infinity();
   /// For each face of the output, in iteration order, a proven bound of the distance of its points
   /// to the input; empty if nothing is proven.
   std::vector<double> face_bounds;
@@ -149,6 +152,7 @@ Certificate_check check_certificate(
   answer.reason = check.reason();
   if (answer.holds) {
     answer.bound = check.bound() / scale;
+    answer.curve_bound = check.curve_bound() / scale;
     answer.face_bounds = check.face_bounds();
     for (double& bound : answer.face_bounds) bound /= scale;
     answer.normal_deviations = check.normal_deviations();

@@ -141,6 +141,13 @@ void write_deviation(
 ///       tolerance for a while and come back; `Effort::best`, six of them}
 ///     \cgalParamDefault{`Effort::standard`}
 ///   \cgalParamNEnd
+///   \cgalParamNBegin{smoothing_sweeps}
+///     \cgalParamDescription{sweeps at the end in which vertices are relocated and edges flipped
+///     for
+///       the shape of the faces, within the tolerance}
+///     \cgalParamType{`unsigned int`}
+///     \cgalParamDefault{0}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{target_faces}
 ///     \cgalParamDescription{a number of faces at which to stop. The tolerance then grows in steps
 ///       up to the one that is given, so that the certified bound is small for that number}
@@ -152,6 +159,12 @@ void write_deviation(
 ///       of the direct bound makes correspond to it}
 ///     \cgalParamType{`double`, in degrees, in (0, 180]; 180: no bound}
 ///     \cgalParamDefault{180}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{ridge_tolerance}
+///     \cgalParamDescription{largest distance, either way, between the ridges and borders of the
+///       result and those of the input, as curves}
+///     \cgalParamType{`double`, in mesh units, positive}
+///     \cgalParamDefault{`tolerance`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{stages}
 ///     \cgalParamDescription{number of stages in which the tolerance grows in equal steps}

@@ -150,10 +150,11 @@ Extraction<Mesh> Hierarchy<Mesh>::extract_faces(std::size_t faces) const
 ///
 /// The named parameters are those of `make_geometric_mesh()`, except that
 /// - `effort` is `Effort::fast` by default. With more, transactions run in the last level only;
+/// - `smoothing_sweeps` are made in the last level only;
 /// - `stages` is the number of steps from each tolerance to the next;
 /// - `target_faces` ends the work, and leaves coarser levels out;
-/// - tolerance maps are for the last level, and count in a finer one by the ratio of its tolerance
-///   to the last;
+/// - tolerance maps and `ridge_tolerance` are for the last level, and count in a finer one by the
+///   ratio of its tolerance to the last;
 /// - a `vertex_point_map` is read. The points of the levels are the meshes' own;
 /// - there is no `deviation_map`, since each level has its own "f:deviation".
 ///

@@ -81,9 +81,11 @@ struct flip_rounds_t {};
 struct placement_t {};
 struct effort_t {};
 struct target_faces_t {};
+struct smoothing_sweeps_t {};
 struct single_precision_t {};
 struct stages_t {};
 struct normal_tolerance_t {};
+struct ridge_tolerance_t {};
 struct vertex_tolerance_map_t {};
 struct face_tolerance_map_t {};
 struct face_is_constrained_map_t {};
@@ -118,9 +120,11 @@ inline constexpr flip_rounds_t flip_rounds{};
 inline constexpr placement_t placement{};
 inline constexpr effort_t effort{};
 inline constexpr target_faces_t target_faces{};
+inline constexpr smoothing_sweeps_t smoothing_sweeps{};
 inline constexpr single_precision_t single_precision{};
 inline constexpr stages_t stages{};
 inline constexpr normal_tolerance_t normal_tolerance{};
+inline constexpr ridge_tolerance_t ridge_tolerance{};
 inline constexpr vertex_tolerance_map_t vertex_tolerance_map{};
 inline constexpr face_tolerance_map_t face_tolerance_map{};
 inline constexpr face_is_constrained_map_t face_is_constrained_map{};
@@ -163,6 +167,7 @@ constexpr unsigned flip_rounds = 3;
 constexpr Placement placement = Placement::on_surface;
 constexpr Effort effort = Effort::standard;
 constexpr std::size_t target_faces = 0;
+constexpr unsigned smoothing_sweeps = 0;
 constexpr unsigned stages = 1;
 constexpr double normal_tolerance = 180;
 constexpr double relative_slack = 0.01;
@@ -217,12 +222,17 @@ public:
   auto placement(Placement where) const { return then<internal::placement_t>(where); }
   auto effort(Effort how_much) const { return then<internal::effort_t>(how_much); }
   auto target_faces(std::size_t number) const { return then<internal::target_faces_t>(number); }
+  auto smoothing_sweeps(unsigned number) const
+  {
+    return then<internal::smoothing_sweeps_t>(number);
+  }
   auto single_precision(bool single) const { return then<internal::single_precision_t>(single); }
   auto stages(unsigned number) const { return then<internal::stages_t>(number); }
   auto normal_tolerance(double degrees) const
   {
     return then<internal::normal_tolerance_t>(degrees);
   }
+  auto ridge_tolerance(double length) const { return then<internal::ridge_tolerance_t>(length); }
   template <class Map>
   auto vertex_tolerance_map(const Map& map) const
   {
@@ -414,6 +424,16 @@ inline auto target_faces(std::size_t number)
   return Named_parameters<std::size_t, internal::target_faces_t>(number);
 }
 
+/// \brief How many sweeps of relocations and flips a simplification makes at its end, for the shape
+/// of the faces.
+///
+/// A number of sweeps (`unsigned`). Default: 0, none, because the fewest faces need not be round.
+/// The work ends earlier where a sweep finds nothing to do. The number of faces stays.
+inline auto smoothing_sweeps(unsigned number)
+{
+  return Named_parameters<unsigned, internal::smoothing_sweeps_t>(number);
+}
+
 /// \brief Whether vertices that move go to points whose coordinates are single-precision numbers
 /// (`bool`), for results that will be stored so. Default: `false`.
 ///
@@ -441,6 +461,17 @@ inline auto stages(unsigned number)
 inline auto normal_tolerance(double degrees)
 {
   return Named_parameters<double, internal::normal_tolerance_t>(degrees);
+}
+
+/// \brief How far ridges and borders may be, as curves, from those of the original: the radius of
+/// the cylinder about a ridge (section 2 of the paper).
+///
+/// A length in mesh units, greater than 0 (`double`). Default: the tolerance of the surface, which
+/// bounds curves as well: more than that makes no difference. `check_certificate()` proves the
+/// distance that was reached.
+inline auto ridge_tolerance(double length)
+{
+  return Named_parameters<double, internal::ridge_tolerance_t>(length);
 }
 
 /// \brief A tolerance at each vertex of the input, where it is less than the one for the whole

@@ -67,6 +67,18 @@ public:
     return bounds;
   }
 
+  /// How far apart the ridges and borders of the two are, as curves: a stretch of a curve of T goes
+  /// linearly to one of M, so that its ends are farthest, and the images cover the curves of M.
+  double curve_bound() const
+  {
+    double bound = 0;
+    const auto raise = [&](Index v) { bound = (std::max)(bound, distances_[v]); };
+    for (const Edge& edge : input_.edges())
+      if (edge.is_border()) raise(edge.a), raise(edge.b);
+    for (const Vertex_pair& ridge : record_.ridges) raise(ridge[0]), raise(ridge[1]);
+    return bound;
+  }
+
   /// For each face of M, a bound in degrees of its angle to the faces of T of its cells.
   std::vector<double> normal_deviations() const
   {

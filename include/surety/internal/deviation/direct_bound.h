@@ -125,6 +125,7 @@ private:
   // Step 1: the T vertices on the disc.
   bool apex_is_in_range() const;
   bool move_vertices();
+  bool slide_along_ridge();
   bool move_vertices_to_ridges();
   bool move_to_faces(Index v, Side side);
   bool move_to_ridge(Index v, Index spoke);

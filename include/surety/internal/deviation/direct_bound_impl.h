@@ -65,8 +65,9 @@ inline bool Direct_bound::apex_is_in_range() const
   const double farthest = largest_coordinate(reference_, tolerance_.largest());
   if (!(disc_->apex_point.cwiseAbs().maxCoeff() <= farthest)) return false;
   if (!disc_->keeps_pin) return true;
-  const Index v = map_.pin(disc_->apex);
-  return (reference_.point(v) - disc_->apex_point).squaredNorm() <= tolerance_.squared_limit(v);
+  const Index v = disc_->new_pin != none ? disc_->new_pin : map_.pin(disc_->apex);
+  return (reference_.point(v) - disc_->apex_point).squaredNorm()
+      <= tolerance_.squared_limit_on_curve(v);
 }
 
 inline bool Direct_bound::move_to_faces(Index v, Side side)
@@ -87,7 +88,7 @@ inline bool Direct_bound::move_to_ridge(Index v, Index spoke)
   const Vector along = mesh_.point(disc_->ring[spoke]) - disc_->apex_point;
   if (!is_within(
           squared_distance_to_segment(reference_.point(v), disc_->apex_point, along),
-          tolerance_.squared_limit(v)))
+          tolerance_.squared_limit_on_curve(v)))
     return false;
   const Side at_spoke = faces_at_spoke(spoke);
   slot_of_vertex_.insert(v, static_cast<Index>(vertices_.size()));
@@ -96,17 +97,31 @@ inline bool Direct_bound::move_to_ridge(Index v, Index spoke)
   return true;
 }
 
+/// Where the apex slides along a ridge: the vertices that it passes, and its pin before.
+inline bool Direct_bound::slide_along_ridge()
+{
+  const Disc& disc = *disc_;
+  const Index behind = disc.ridge[1 - disc.new_pin_side];
+  for (const Index v : disc.passed)
+    if (!move_to_ridge(v, behind)) return false;
+  slot_of_vertex_.insert(disc.new_pin, static_cast<Index>(vertices_.size()));
+  vertices_.push_back({disc.new_pin, Element(Element::Kind::vertex, disc.apex), 0, disc.size()});
+  return true;
+}
+
 /// The vertices on a ridge through the disc stay on it: each new ridge edge takes over old ones,
 /// and the vertex that went to P goes to the one that takes over PQ.
 inline bool Direct_bound::move_vertices_to_ridges()
 {
   const Disc& disc = *disc_;
-  bool admissible = true;
+  bool admissible = disc.new_pin == none || slide_along_ridge();
   for (int k = 0; k < 2 && disc.ridge[k] != none; ++k)
     for (const Index old : disc.old_ridge[k]) {
       if (old == none) continue;
-      map_.for_each_vertex_on_edge(
-          old, [&](Index v) { admissible = admissible && move_to_ridge(v, disc.ridge[k]); });
+      map_.for_each_vertex_on_edge(old, [&](Index v) {
+        if (slot_of_vertex(v) != none) return; // slides
+        admissible = admissible && move_to_ridge(v, disc.ridge[k]);
+      });
       if (admissible && disc.removed != none && old == mesh_.edge(disc.halfedge))
         admissible = move_to_ridge(map_.pin(disc.removed), disc.ridge[k]);
     }
@@ -140,7 +155,7 @@ inline void Direct_bound::commit(const Disc& disc)
     for (const Index old : disc.old_ridge[k])
       if (old != none) map_.clear_edge(old);
   if (disc.removed != none) map_.clear_pin(disc.removed);
-  if (!disc.keeps_pin) map_.clear_pin(disc.apex);
+  if (!disc.keeps_pin || disc.new_pin != none) map_.clear_pin(disc.apex);
   for (const Moved_vertex& moved : vertices_) map_.assign(moved.vertex, moved.image);
   if (journal_.is_recording())
     for (const Routed_edge& routed : edges_) touched_edges_.push_back(routed.edge);

@@ -41,8 +41,10 @@ inline double Direct_bound::largest_ratio_at_vertex(Index m_vertex) const
 {
   const Index v = map_.pin(m_vertex);
   if (v == none) return 0;
+  // Only vertices of curves stay pinned when they move.
   return ratio(
-      (reference_.point(v) - mesh_.point(m_vertex)).squaredNorm(), tolerance_.squared_limit(v));
+      (reference_.point(v) - mesh_.point(m_vertex)).squaredNorm(),
+      tolerance_.squared_limit_on_curve(v));
 }
 
 inline double Direct_bound::largest_ratio_on_face(Index m_face) const
@@ -60,7 +62,7 @@ inline double Direct_bound::largest_ratio_on_edge(Index m_edge) const
   double largest = 0;
   map_.for_each_vertex_on_edge(m_edge, [&](Index v) {
     const double squared = squared_distance_to_m_edge(reference_.point(v), m_edge);
-    largest = std::max(largest, ratio(squared, tolerance_.squared_limit(v)));
+    largest = std::max(largest, ratio(squared, tolerance_.squared_limit_on_curve(v)));
   });
   map_.for_each_node_on_m(m_edge, [&](Index n) {
     const Node& node = map_.node(n);

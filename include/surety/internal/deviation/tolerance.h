@@ -11,6 +11,7 @@
 #include <surety/internal/linear.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace surety::internal {
@@ -28,6 +29,13 @@ public:
       largest_(*std::max_element(at_vertices.begin(), at_vertices.end())),
       at_vertices_(std::move(at_vertices))
   {
+    update();
+  }
+
+  /// Bounds curves, ridges and borders, by less than the surface.
+  void limit_curves(double largest)
+  {
+    largest_on_curves_ = largest;
     update();
   }
 
@@ -74,6 +82,12 @@ public:
         factor_ * (at_a + v * (at_vertices_[b] - at_a) + w * (at_vertices_[c] - at_a)));
   }
 
+  /// At a vertex of a curve of T, which goes to one of M.
+  double squared_limit_on_curve(Index v) const
+  {
+    return std::min(squared_limit(v), squared_on_curves_);
+  }
+
   double squared_limit_of_largest() const { return squared_; }
 
   bool is_uniform() const { return at_vertices_.empty(); }
@@ -85,10 +99,13 @@ private:
   {
     factor_ = stage_ * overshoot_;
     squared_ = rounding_.squared_limit(factor_ * largest_);
+    squared_on_curves_ = rounding_.squared_limit(factor_ * std::min(largest_, largest_on_curves_));
   }
 
   Rounding rounding_;
   double largest_;
+  double largest_on_curves_ = std::numeric_limits<double>::infinity();
+  double squared_on_curves_ = 0;
   double stage_ = 1, overshoot_ = 1, factor_ = 1, squared_ = 0;
   std::vector<double> at_vertices_; ///< empty: the same everywhere
 };

@@ -129,7 +129,10 @@ private:
   }
   void add_vertex(Index v, Kind kind, Index place)
   {
-    add(reference_.point(v), bound_.tolerance().squared_limit(v), kind, place);
+    const Tolerance& tolerance = bound_.tolerance();
+    const double limit
+        = kind == Kind::face ? tolerance.squared_limit(v) : tolerance.squared_limit_on_curve(v);
+    add(reference_.point(v), limit, kind, place);
   }
   void add_node(Index n, Index place)
   {

@@ -274,7 +274,8 @@ inline Vector Greedy::proposal(const Disc& disc) const
       = unit(mesh_.point(disc.ring[disc.ridge[1]]) - mesh_.point(disc.ring[disc.ridge[0]]));
   Vector offset = best - x;
   offset -= offset.dot(along) * along;
-  const double limit = clamp * std::sqrt(std::max(0.0, bound_->tolerance().squared_limit(pin)));
+  const double limit
+      = clamp * std::sqrt(std::max(0.0, bound_->tolerance().squared_limit_on_curve(pin)));
   if (offset.norm() > limit) offset *= limit / offset.norm();
   return x + offset;
 }

@@ -168,6 +168,7 @@ inline bool Patch::simplify(
   Direct_bound bound(
       reference, mesh, whole.tolerance.restricted_to(vertices_), journal, whole.normal_cosine);
   plan.overshoots.clear();
+  plan.smoothing_sweeps = 0;
   Simplifier simplifier(
       reference, mesh, bound, &bound, controls, plan, Guarding::never, journal,
       whole.reference.point(0), visitor);

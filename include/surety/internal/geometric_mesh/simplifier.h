@@ -5,6 +5,7 @@
 #ifndef SURETY_INTERNAL_GEOMETRIC_MESH_SIMPLIFIER_H
 #define SURETY_INTERNAL_GEOMETRIC_MESH_SIMPLIFIER_H
 
+#include <surety/internal/geometric_mesh/smoother.h>
 #include <surety/internal/geometric_mesh/transaction.h>
 
 #include <optional>
@@ -18,6 +19,8 @@ struct Simplification_plan {
   /// stage there are none.
   std::vector<double> overshoots;
   std::size_t fewest_faces = 0;
+  /// Of relocations and flips for the shape of the faces, at the end of it all.
+  unsigned smoothing_sweeps = 0;
   /// Shares of the tolerance, one stage each, growing up to 1 (the loop of section 2.3 of the
   /// paper).
   std::vector<double> stages{1.0};
@@ -67,6 +70,8 @@ public:
   {
     if (direct != nullptr && !plan.overshoots.empty())
       transactions_.emplace(reference, editor_, *direct, greedy_, improver_, !plan.places_freely);
+    if (direct != nullptr && plan.smoothing_sweeps > 0)
+      smoother_.emplace(reference, editor_, *direct, !plan.places_freely);
     if (guarding == Guarding::always) editor_.start_guard();
   }
 
@@ -91,6 +96,7 @@ private:
     for (std::size_t stage = 0; stage < plan_.stages.size(); ++stage) {
       const bool is_last = stage + 1 == plan_.stages.size();
       if (!run_stage(plan_.stages[stage], is_last)) return false;
+      if ((is_last || is_done()) && !smooth()) return false;
       if ((plan_.on_stage && !plan_.on_stage(stage)) || is_done()) return true;
     }
     return true;
@@ -102,7 +108,7 @@ private:
     for (double share = 0x1p-14;; share *= mesh_.number_of_live_faces() > 4 * goal() ? 2 : 1.15) {
       const bool is_last = share >= 1;
       if (!run_stage(std::min(share, 1.0), is_last || is_near_goal())) return false;
-      if (is_last || is_done()) return true;
+      if (is_last || is_done()) return smooth();
     }
   }
 
@@ -176,6 +182,43 @@ private:
     return true;
   }
 
+  /// Until nothing gets better, or often enough.
+  bool smooth()
+  {
+    if (!smoother_) return true;
+    Index since = 0;
+    for (unsigned sweep = 0; sweep < plan_.smoothing_sweeps; ++sweep) {
+      const Index now = editor_.clock();
+      if (!smooth_vertices(since) || !smooth_edges(since)) return false;
+      if (editor_.clock() == now) break;
+      since = now + 1;
+    }
+    return true;
+  }
+
+  bool smooth_vertices(Index since)
+  {
+    const Index vertices = mesh_.number_of_real_vertices();
+    for (Index v = 0; v < vertices; ++v) {
+      if (v % 4096 == 0 && !report()("smooth", double(v) / vertices)) return false;
+      if (editor_.changed_at(v) >= since) smoother_->relocate(v);
+    }
+    return true;
+  }
+
+  bool smooth_edges(Index since)
+  {
+    const Index edges = mesh_.number_of_real_edges();
+    for (Index e = 0; e < edges; ++e) {
+      if (e % 4096 == 0 && !report()("smooth", double(e) / edges)) return false;
+      const Index h = mesh_.halfedge(e);
+      if (mesh_.is_live_edge(e) && editor_.changed_at(mesh_.source(h)) >= since
+          && editor_.changed_at(mesh_.target(h)) >= since)
+        smoother_->flip(e);
+    }
+    return true;
+  }
+
   bool sweep_vertices()
   {
     const Index since = std::exchange(vertices_swept_at_, editor_.clock() + 1);
@@ -204,6 +247,7 @@ private:
   Improver improver_;
   Deviation_policy& deviation_;
   std::optional<Transactions> transactions_;
+  std::optional<Smoother> smoother_;
   bool intersects_ = false;
   /// What has not changed since the last sweep need not be tried again: the time then.
   Index edges_swept_at_ = 0, vertices_swept_at_ = 0;

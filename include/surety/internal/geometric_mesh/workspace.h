@@ -71,15 +71,19 @@ Simplification_plan simplification_plan(const NamedParameters& np, const char* f
   plan.flip_rounds = parameter_or(np, flip_rounds, defaults::flip_rounds);
   plan.places_freely = parameter_or(np, placement, defaults::placement) == Placement::free;
   plan.fewest_faces = parameter_or(np, target_faces, defaults::target_faces);
+  plan.smoothing_sweeps = parameter_or(np, smoothing_sweeps, defaults::smoothing_sweeps);
   plan.stages = stage_shares(np, function);
   // The accumulated bound adds up over the steps, and would miss the goal.
-  plan.seeks_goal = plan.fewest_faces > 0 && plan.stages.size() == 1
-      && parameter_or(np, deviation_bound, defaults::deviation_bound) == Deviation_bound::direct;
+  const bool adds_up = parameter_or(np, deviation_bound, defaults::deviation_bound)
+      == Deviation_bound::accumulated;
+  plan.seeks_goal = plan.fewest_faces > 0 && plan.stages.size() == 1 && !adds_up;
   const Effort effort_spent = parameter_or(np, effort, defaults::effort);
   if (effort_spent == Effort::standard) plan.overshoots = {1.4};
-  if (plan.places_freely
-      && parameter_or(np, deviation_bound, defaults::deviation_bound)
-          == Deviation_bound::accumulated)
+  if (adds_up && plan.smoothing_sweeps > 0)
+    throw Invalid_input(
+        function, "smoothing_sweeps", "the accumulated bound has no operation that moves vertices",
+        "use Deviation_bound::direct");
+  if (plan.places_freely && adds_up)
     throw Invalid_input(
         function, "placement", "the accumulated bound has no operation that places vertices freely",
         "use Placement::on_surface or Deviation_bound::direct");
@@ -98,6 +102,20 @@ double read_normal_cosine(const NamedParameters& np, const char* function)
   require_positive(angle, function, "normal_tolerance");
   require_in_range(angle, 0, 180, function, "normal_tolerance");
   return angle < 180 ? std::cos(angle * radians_per_degree * (1 - reserve)) : -1;
+}
+
+/// A length; infinite where curves have the tolerance of the surface.
+template <class NamedParameters>
+double read_ridge_tolerance(const NamedParameters& np, const char* function)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if constexpr (is_absent<NamedParameters, ridge_tolerance_t>) {
+    return infinity;
+  } else {
+    const double length = CGAL::parameters::get_parameter(np, ridge_tolerance);
+    require_positive(length, function, "ridge_tolerance");
+    return length;
+  }
 }
 
 /// The visitor as a function; absent when the user gave none.
@@ -180,7 +198,8 @@ public:
       tolerance_(scale_ * tolerance),
       varying_tolerance_(varying_tolerance(mesh, elements_, tolerance, np, function)),
       kind_(parameter_or(np, deviation_bound, defaults::deviation_bound)),
-      normal_cosine_(read_normal_cosine(np, function))
+      normal_cosine_(read_normal_cosine(np, function)),
+      ridge_tolerance_(scale_ * read_ridge_tolerance(np, function))
   {
     if (kind_ == Deviation_bound::accumulated && !varying_tolerance_.empty())
       throw Invalid_input(
@@ -189,6 +208,10 @@ public:
     if (kind_ == Deviation_bound::accumulated && normal_cosine_ > -1)
       throw Invalid_input(
           function, "normal_tolerance", "the accumulated bound knows no normals",
+          "use Deviation_bound::direct");
+    if (kind_ == Deviation_bound::accumulated && ridge_tolerance_ < tolerance_)
+      throw Invalid_input(
+          function, "ridge_tolerance", "the accumulated bound knows one tolerance only",
           "use Deviation_bound::direct");
     using Coordinate
         = std::decay_t<decltype(get(vertex_points(mesh, np), *mesh.vertices().begin()).x())>;
@@ -341,11 +364,11 @@ private:
       return;
     }
     const Rounding rounding(Direct_bound::largest_coordinate(reference_, tolerance_));
+    auto tolerance = varying_tolerance_.empty() ? Tolerance(rounding, tolerance_)
+                                                : Tolerance(rounding, varying_tolerance_);
+    tolerance.limit_curves(ridge_tolerance_);
     auto bound = std::make_unique<Direct_bound>(
-        reference_, *working_,
-        varying_tolerance_.empty() ? Tolerance(rounding, tolerance_)
-                                   : Tolerance(rounding, varying_tolerance_),
-        journal_, normal_cosine_);
+        reference_, *working_, std::move(tolerance), journal_, normal_cosine_);
     direct_ = bound.get();
     deviation_ = std::move(bound);
   }
@@ -362,7 +385,7 @@ private:
   double tolerance_;
   std::vector<double> varying_tolerance_;
   Deviation_bound kind_;
-  double normal_cosine_;
+  double normal_cosine_, ridge_tolerance_;
   bool has_float_points_ = false;
   std::unique_ptr<Deviation_policy> deviation_;
   Direct_bound* direct_ = nullptr;

@@ -49,7 +49,11 @@ struct Disc {
   std::array<Index, 2> ridge{none, none};
   /// Edges inside the disc, before, whose T vertices belong on each of the new ridge spokes.
   std::array<std::array<Index, 2>, 2> old_ridge;
-  bool keeps_pin = false;    ///< the T vertex that goes to the apex goes there still
+  bool keeps_pin = false; ///< the T vertex that goes to the apex goes there still
+  /// Or another one does, which goes to one of the ridge spokes before, so that the apex slides
+  /// along the ridge; and the T vertices that it leaves behind, which go to the other.
+  Index new_pin = none, new_pin_side = 0;
+  std::vector<Index> passed;
   Index first = 1, last = 0; ///< of an open fan: its real faces are F_first .. F_last
 
   bool is_closed() const { return kind != Kind::collapse && kind != Kind::flip; }
@@ -126,6 +130,8 @@ struct Disc {
     removed = none;
     ridge = {none, none};
     keeps_pin = false;
+    new_pin = none;
+    passed.clear();
   }
 
 private:
