@@ -30,9 +30,15 @@ std::string name_of(Value value, const Names<Value>& names)
   return found->first;
 }
 
-/// Adds the options of placement, effort, features, roughness, shape, flips and self-intersections;
-/// what the controls hold is their default.
+/// Adds the options of all the controls; what they hold is the default.
 void add_controls(CLI::App& command, Controls& controls);
+
+/// \throws Failure (usage) when one of the controls asks for what another one excludes.
+void require_compatible(const Controls& controls);
+
+/// Works out the tolerance of ridges in mesh units, for a mesh with this diagonal: that of the
+/// surface unless a smaller one was given.
+void set_ridge_length(Controls& controls, double tolerance, double diagonal);
 
 /// The controls as a report shows them.
 Json describe(const Controls& controls);

@@ -113,13 +113,17 @@ class Make_hierarchy
 {
 public:
   explicit Make_hierarchy(const Arguments& arguments)
-    : arguments_(arguments), folder_(arguments.folder), report_({arguments.input})
+    : arguments_(arguments),
+      controls_(arguments.controls),
+      folder_(arguments.folder),
+      report_({arguments.input})
   {}
 
   void run()
   {
     const std::vector<Length> lengths = parse_tolerances();
     if (!arguments_.report.empty()) report_.announce(arguments_.report);
+    require_compatible(arguments_.controls);
     require_numbered_vertices();
     watch_for_interruption();
     read();
@@ -150,6 +154,12 @@ private:
           usage,
           "--certificates: a file of format '" + arguments_.format
               + "' does not give the vertices back as they were; write off, obj or ply");
+    if (arguments_.with_certificates
+        && arguments_.controls.deviation_bound == Deviation_bound::accumulated)
+      throw Failure(
+          usage,
+          "--certificates: the accumulated bound keeps no record that could be written; leave one "
+          "of the two options out");
   }
 
   void read()
@@ -165,6 +175,7 @@ private:
   }
 
   void simplify();
+  bool is_certificate_confirmed(const Mesh& mesh, const Certificate& certificate) const;
   void verify();
   void write();
   void write_level(std::ostream& stream, std::size_t level) const;
@@ -191,6 +202,7 @@ private:
   }
 
   const Arguments& arguments_;
+  Controls controls_;
   Output_folder folder_;
   Output_files report_;
   Stopwatch watch_;
@@ -204,37 +216,40 @@ void Make_hierarchy::simplify()
 {
   // Vertices that stay are rounded when they are written, and the tolerance must pay for that.
   const double error = is_single_precision() ? single_precision_error(input_) : 0;
-  std::vector<double> tolerances = tolerances_;
-  for (double& tolerance : tolerances) {
+  const auto make_room = [error](double& tolerance, const std::string& option) {
     if (error > 0) tolerance = tolerance * (1 - 0x1p-40) - error;
     if (!(tolerance > 0))
       throw Failure(
           usage,
-          "--tolerances: rounding to single precision alone moves vertices by " + to_text(error)
+          option + ": rounding to single precision alone moves vertices by " + to_text(error)
               + "; write ply");
-  }
+  };
+  std::vector<double> tolerances = tolerances_;
+  for (double& tolerance : tolerances) make_room(tolerance, "--tolerances");
+  Controls& controls = controls_;
+  set_ridge_length(controls, tolerances_.back(), diagonal(input_));
+  make_room(controls.ridge_length, "--ridge-tolerance");
+  controls.single_precision = is_single_precision();
   Progress_bar bar(arguments_.is_quiet);
-  const Controls& c = arguments_.controls;
   try {
-    hierarchy_ = make_hierarchy(
-        input_, tolerances,
-        parameters::placement(c.placement)
-            .effort(c.effort)
-            .feature_angle(c.feature_angle)
-            .corner_angle(c.corner_angle)
-            .roughness_angle(c.roughness_angle)
-            .shape_ratio(c.shape_ratio)
-            .shape_floor(c.shape_floor)
-            .flip_rounds(c.flip_rounds)
-            .allow_self_intersections(c.allow_self_intersections)
-            .single_precision(is_single_precision())
-            .visitor(Visitor(bar)));
+    hierarchy_ = make_hierarchy(input_, tolerances, control_parameters(controls, Visitor(bar)));
   } catch (const Invalid_input& error) {
     if (error.argument() == "mesh")
       throw Bad_file(arguments_.input, error.problem(), error.remedy());
     throw Failure(usage, error.argument() + ": " + error.problem());
   }
   lap("hierarchy");
+}
+
+/// The accumulated bound has no record to be checked.
+bool Make_hierarchy::is_certificate_confirmed(
+    const Mesh& mesh, const Certificate& certificate) const
+{
+  if (!certificate.correspondence()) return true;
+  const auto check = check_certificate(input_, mesh, certificate);
+  stop_if_interrupted();
+  return check.holds && check.largest_normal_deviation <= controls_.normal_tolerance
+      && check.curve_bound <= controls_.ridge_length;
 }
 
 void Make_hierarchy::verify()
@@ -245,14 +260,12 @@ void Make_hierarchy::verify()
     if (!(certificate.holds() && bound_of_file(i) <= tolerances_[i]))
       throw Failure(not_certified, name + " is not within its tolerance; nothing was written");
     if (arguments_.skips_verification) continue;
-    const auto check = check_certificate(input_, mesh, certificate);
-    stop_if_interrupted();
-    const auto distance = certify_distance(input_, mesh, certificate.tolerance());
-    stop_if_interrupted();
-    if (!check.holds || !distance.holds())
+    if (!is_certificate_confirmed(mesh, certificate)
+        || !certify_distance(input_, mesh, certificate.tolerance()).holds())
       throw Failure(
           not_certified,
           "the check of " + name + " failed; nothing was written; please report this");
+    stop_if_interrupted();
   }
   lap("verify");
 }
@@ -284,6 +297,7 @@ void Make_hierarchy::write()
     report_.write(arguments_.report, [&](std::ostream& stream) {
       Json report = index();
       report["seconds"] = watch_.seconds();
+      report["parameters"] = describe(controls_);
       report["operations"] = to_json(hierarchy_->operations());
       stream << to_text(report);
     });

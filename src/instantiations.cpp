@@ -8,6 +8,8 @@ namespace surety {
 
 template Certificate make_geometric_mesh<tool::Concurrency>(
     tool::Mesh&, double, const tool::Simplify_parameters&);
+template Hierarchy<tool::Mesh> make_hierarchy(
+    const tool::Mesh&, const std::vector<double>&, const tool::Hierarchy_parameters&);
 template Certificate_check check_certificate(
     const tool::Mesh&, const tool::Mesh&, const Certificate&, const tool::No_parameters&,
     const tool::No_parameters&);

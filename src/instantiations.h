@@ -17,6 +17,7 @@
 #include <surety/geometric_mesh.h>
 #include <surety/geometric_support.h>
 #include <surety/gradation.h>
+#include <surety/hierarchy.h>
 #include <surety/medit_sol.h>
 #include <surety/metric.h>
 #include <surety/parameters.h>
@@ -24,7 +25,9 @@
 #include <surety/statistics.h>
 
 #include <cstddef>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace surety::tool {
 
@@ -40,8 +43,11 @@ struct Controls {
   double shape_ratio = internal::defaults::shape_ratio;
   double shape_floor = internal::defaults::shape_floor;
   unsigned flip_rounds = internal::defaults::flip_rounds;
+  unsigned smoothing_sweeps = internal::defaults::smoothing_sweeps;
   unsigned stages = internal::defaults::stages;
   double normal_tolerance = internal::defaults::normal_tolerance;
+  std::string ridge_tolerance; ///< as it was given; empty: that of the surface
+  double ridge_length = 0;     ///< the same in mesh units, see set_ridge_length()
   bool allow_self_intersections = internal::defaults::allow_self_intersections;
   bool single_precision = false;
 };
@@ -49,8 +55,8 @@ struct Controls {
 /// A tolerance at each vertex of the input.
 using Tolerances = Mesh::Property_map<Mesh::Vertex_index, double>;
 
-inline auto simplify_parameters(
-    const Controls& controls, const Tolerances& tolerances, const Visitor& visitor)
+/// What every command that simplifies passes on.
+inline auto control_parameters(const Controls& controls, const Visitor& visitor)
 {
   return parameters::placement(controls.placement)
       .effort(controls.effort)
@@ -63,11 +69,18 @@ inline auto simplify_parameters(
       .shape_floor(controls.shape_floor)
       .flip_rounds(controls.flip_rounds)
       .allow_self_intersections(controls.allow_self_intersections)
+      .smoothing_sweeps(controls.smoothing_sweeps)
       .stages(controls.stages)
       .normal_tolerance(controls.normal_tolerance)
+      .ridge_tolerance(controls.ridge_length)
       .single_precision(controls.single_precision)
-      .vertex_tolerance_map(tolerances)
       .visitor(visitor);
+}
+
+inline auto simplify_parameters(
+    const Controls& controls, const Tolerances& tolerances, const Visitor& visitor)
+{
+  return control_parameters(controls, visitor).vertex_tolerance_map(tolerances);
 }
 
 inline auto feature_parameters(double feature_angle, double corner_angle)
@@ -131,6 +144,8 @@ using Concurrency = CGAL::Parallel_if_available_tag;
 using No_parameters = CGAL::parameters::Default_named_parameters;
 using Simplify_parameters = decltype(simplify_parameters(
     std::declval<Controls>(), std::declval<Tolerances>(), std::declval<Visitor>()));
+using Hierarchy_parameters
+    = decltype(control_parameters(std::declval<Controls>(), std::declval<Visitor>()));
 using Feature_parameters = decltype(feature_parameters(0, 0));
 using Need_parameters = decltype(need_parameters(0));
 using Curvature_parameters = decltype(curvature_parameters(0));
@@ -146,6 +161,8 @@ namespace surety {
 
 extern template Certificate make_geometric_mesh<tool::Concurrency>(
     tool::Mesh&, double, const tool::Simplify_parameters&);
+extern template Hierarchy<tool::Mesh> make_hierarchy(
+    const tool::Mesh&, const std::vector<double>&, const tool::Hierarchy_parameters&);
 extern template Certificate_check check_certificate(
     const tool::Mesh&, const tool::Mesh&, const Certificate&, const tool::No_parameters&,
     const tool::No_parameters&);

@@ -41,7 +41,8 @@ struct Verification {
 class Simplify
 {
 public:
-  explicit Simplify(const Arguments& arguments) : arguments_(arguments), files_({arguments.input})
+  explicit Simplify(const Arguments& arguments)
+    : arguments_(arguments), controls_(arguments.controls), files_({arguments.input})
   {}
 
   void run()
@@ -52,7 +53,8 @@ public:
         arguments_.tolerance.empty() ? "100%" : arguments_.tolerance, "--tolerance");
     const Thread_limit thread_limit(arguments_.threads);
     announce_outputs();
-    require_compatible_controls();
+    require_compatible(arguments_.controls);
+    require_uniform_tolerance_if_accumulated();
     watch_for_interruption();
     read();
     tolerance_ = length.in_units(diagonal(input_));
@@ -64,7 +66,7 @@ public:
 
 private:
   void announce_outputs();
-  void require_compatible_controls() const;
+  void require_uniform_tolerance_if_accumulated() const;
   void read();
   void simplify();
   void verify();
@@ -82,6 +84,7 @@ private:
   }
 
   const Arguments& arguments_;
+  Controls controls_;
   Output_files files_;
   Stopwatch watch_;
   Mesh input_, output_;
@@ -118,21 +121,14 @@ void Simplify::announce_outputs()
   files_.announce(arguments_.certificate);
 }
 
-void Simplify::require_compatible_controls() const
+void Simplify::require_uniform_tolerance_if_accumulated() const
 {
-  const Controls& controls = arguments_.controls;
-  if (controls.placement == Placement::free
-      && controls.deviation_bound == Deviation_bound::accumulated)
+  if (arguments_.controls.deviation_bound == Deviation_bound::accumulated
+      && !arguments_.tolerance_field.empty())
     throw Failure(
         usage,
-        "--placement: the accumulated bound has no operation that places vertices freely; leave "
-        "one of the two options out");
-  if (controls.deviation_bound == Deviation_bound::accumulated
-      && (controls.normal_tolerance < 180 || !arguments_.tolerance_field.empty()))
-    throw Failure(
-        usage,
-        "--bound: the accumulated bound knows neither normals nor a tolerance that varies; leave "
-        "--normal-tolerance and --tolerance-field out");
+        "--bound: the accumulated bound knows no tolerance that varies; leave --tolerance-field "
+        "out");
 }
 
 void Simplify::read()
@@ -152,7 +148,8 @@ void Simplify::simplify()
   Progress_bar bar(arguments_.is_quiet);
   output_ = input_;
   const Tolerances tolerances = add_tolerances(output_, tolerance_, arguments_.tolerance_field);
-  Controls controls = arguments_.controls;
+  Controls& controls = controls_;
+  set_ridge_length(controls, tolerance_, diagonal(input_));
   // So that STL, which is binary for such coordinates only, stays binary and small.
   controls.single_precision
       = extension_of(arguments_.output) == "stl" && has_float_coordinates(input_);
@@ -189,6 +186,8 @@ void Simplify::verify()
       fail_verification(
           "of normals proves only " + to_text(verification_.certificate->largest_normal_deviation)
           + " degrees");
+    if (verification_.certificate->curve_bound > controls_.ridge_length)
+      fail_verification("of ridges proves only " + to_text(verification_.certificate->curve_bound));
   }
   verification_.distance = certify_distance(input_, output_, tolerance_);
   lap("verify");
@@ -247,6 +246,7 @@ Json Simplify::report() const
     certificate["certificate_check"]
         = {{"bound", verification_.certificate->bound},
            {"holds", verification_.certificate->holds},
+           {"curve_bound", verification_.certificate->curve_bound},
            {"largest_normal_deviation", verification_.certificate->largest_normal_deviation}};
   }
   if (verification_.distance) {
@@ -255,9 +255,16 @@ Json Simplify::report() const
            {"holds", verification_.distance->holds()}};
   }
   json["seconds"] = watch_.seconds();
-  json["parameters"] = describe(arguments_.controls);
+  json["parameters"] = describe(controls_);
   json["operations"] = to_json(certificate_->operations());
   return json;
+}
+
+/// What is proven of ridges and borders, where there are any that moved.
+std::string to_text_of_curves(const Certificate_check& check)
+{
+  if (check.curve_bound == 0) return {};
+  return "; ridges and borders lie within " + to_text(check.curve_bound);
 }
 
 void Simplify::print() const
@@ -272,7 +279,8 @@ void Simplify::print() const
             << "either surface is farther than " << certificate_->bound() << " from the other\n";
   if (verification_.certificate)
     std::cout << "  checked from its record: holds; normals turn by at most "
-              << verification_.certificate->largest_normal_deviation << " degrees\n";
+              << verification_.certificate->largest_normal_deviation << " degrees"
+              << to_text_of_curves(*verification_.certificate) << '\n';
   if (verification_.distance) std::cout << "  checked by measuring both meshes: holds\n";
   if (arguments_.skips_verification) std::cout << "  not checked independently\n";
   std::cout << "seconds\n ";
@@ -280,32 +288,6 @@ void Simplify::print() const
     std::cout << ' ' << step << ' ' << seconds.get<double>();
   }
   std::cout << '\n';
-}
-
-void add_own_controls(CLI::App& command, Controls& controls)
-{
-  command
-      .add_option(
-          "--target-faces", controls.target_faces,
-          "stop at this number of faces, with the smallest bound on the way; 0: as few as the "
-          "tolerance allows")
-      ->check(between(0, 4e9))
-      ->capture_default_str();
-  command.add_option("--bound", controls.deviation_bound, "how the distance is bounded")
-      ->transform(CLI::CheckedTransformer(names_of_bounds()).description("direct|accumulated"))
-      ->default_str("direct");
-  command
-      .add_option(
-          "--stages", controls.stages, "stages in which the tolerance grows, in equal steps")
-      ->check(between(1, 1000))
-      ->capture_default_str();
-  command
-      .add_option(
-          "--normal-tolerance", controls.normal_tolerance,
-          "largest angle between a face and the original faces that correspond to it, in degrees; "
-          "180: any")
-      ->check(between(1e-6, 180))
-      ->capture_default_str();
 }
 
 } // namespace
@@ -332,7 +314,6 @@ void add_simplify(CLI::App& program, Exit_status&)
       ->check(between(0, 4096))
       ->capture_default_str();
   add_controls(*command, arguments->controls);
-  add_own_controls(*command, arguments->controls);
   command->add_flag(
       "--triangulate", arguments->reading.triangulate, "split faces with more than three corners");
   command->add_option(

@@ -51,6 +51,7 @@ Exit_status Verify::run() const
   json["certificate"]
       = {{"tolerance", claim.tolerance()},
          {"bound", check.bound},
+         {"curve_bound", check.curve_bound},
          {"holds", check.holds},
          {"reason", check.reason}};
   json["seconds"] = watch.seconds();

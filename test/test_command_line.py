@@ -378,6 +378,28 @@ class Controls(Case):
             faces.append(report["output"]["faces"])
         self.assertGreater(faces[0], faces[1])
 
+    def test_smoothing_makes_rounder_faces_and_keeps_their_number(self):
+        self.write("in.off", off_text(torus()))
+        before, after = (
+            self.report("simplify", "in.off", "-o", "out.off", "-t", "2%", "--smoothing", sweeps)
+            for sweeps in ("0", "10"))
+        self.assertEqual(before["output"]["faces"], after["output"]["faces"])
+        self.assertLess(after["output"]["Q_avg"], before["output"]["Q_avg"])
+        self.assertEqual(after["parameters"]["smoothing"], 10)
+
+    def test_ridge_tolerance_is_proven(self):
+        self.write("in.off", off_text(grid()))
+        faces = []
+        for tolerance in ("0.01%", "1%"):
+            report = self.report("simplify", "in.off", "-o", "out.off", "-t", "1%",
+                                 "--ridge-tolerance", tolerance, "--placement", "free")
+            proven = report["certificate"]["certificate_check"]["curve_bound"]
+            self.assertLessEqual(proven, report["parameters"]["ridge_tolerance"])
+            faces.append(report["output"]["faces"])
+        self.assertAlmostEqual(report["parameters"]["ridge_tolerance"],
+                               report["certificate"]["tolerance"])
+        self.assertGreater(faces[0], faces[1])
+
     def test_tolerance_field_of_vertices_or_faces(self):
         points, triangles = torus()
         everywhere = self.faces((points, triangles), "-t", "2%")
@@ -812,6 +834,11 @@ class Hostile_parameters(Case):
         self.simplify("extra.off", "extra.off", "-o", "out.off", "-t", "1%")
         self.simplify("placement", "-o", "out.off", "-t", "1%", "--placement", "anywhere")
         self.simplify("bound", "-o", "out.off", "-t", "1%", "--bound", "none")
+        for length in ("0", "-1", "nan", "200%", "x"):
+            self.simplify("ridge-tolerance", "-o", "out.off", "-t", "1%", "--ridge-tolerance",
+                          length)
+        self.simplify("ridge-tolerance", "-o", "out.off", "-t", "1%", "--ridge-tolerance", "0.1%",
+                      "--bound", "accumulated")
 
     def test_controls_out_of_range(self):
         for flag, values in {
@@ -822,6 +849,7 @@ class Hostile_parameters(Case):
             "--shape-floor": ("0", "0.5", "-1", "nan"),
             "--flip-rounds": ("-1", "1.5", "nan", "99999999999"),
             "--target-faces": ("-1", "1.5", "nan", "inf", "99999999999", "many"),
+            "--smoothing": ("-1", "1.5", "nan", "99999999999"),
             "--effort": ("", "standard", "fastest", "1.5"),
         }.items():
             for value in values:

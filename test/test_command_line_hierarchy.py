@@ -146,6 +146,54 @@ class Hierarchy(unittest.TestCase):
         self.run_hierarchy("--certificates", "--format", "stl", status=USAGE)
         self.run_hierarchy(status=USAGE, tolerances="1e-12,1e-3")  # finer than single precision
 
+    def test_target_faces_leaves_coarser_levels_out(self):
+        self.run_hierarchy("--format", "off")
+        faces = [level["faces"] for level in self.index()["levels"]]
+        target = (faces[0] + faces[1]) // 2
+        self.output = self.folder / "fewer"
+        self.run_hierarchy("--format", "off", "--target-faces", str(target))
+        ended = [level["faces"] for level in self.index()["levels"]]
+        self.assertEqual(len(ended), 2)
+        self.assertEqual(ended[0], faces[0])
+        self.assertIn(ended[1], (target, target - 1))
+
+    def test_normal_tolerance_keeps_more_faces(self):
+        self.run_hierarchy("--format", "off")
+        faces = [level["faces"] for level in self.index()["levels"]]
+        self.output = self.folder / "normals"
+        report = self.folder / "report.json"
+        self.run_hierarchy("--format", "off", "--normal-tolerance", "5", "--report", str(report))
+        self.assertEqual(json.loads(report.read_text())["parameters"]["normal_tolerance"], 5)
+        self.assertGreater(self.index()["levels"][-1]["faces"], faces[-1])
+
+    def test_ridge_tolerance_keeps_more_faces(self):
+        self.run_hierarchy("--format", "off")
+        faces = [level["faces"] for level in self.index()["levels"]]
+        self.output = self.folder / "borders"
+        self.run_hierarchy("--ridge-tolerance", "0.01%")
+        self.assertGreater(self.index()["levels"][-1]["faces"], faces[-1])
+
+    def test_stages_are_steps_to_each_level(self):
+        self.run_hierarchy("--format", "off")
+        at_once = (self.output / "operations.txt").read_text()
+        self.output = self.folder / "steps"
+        self.run_hierarchy("--format", "off", "--stages", "3")
+        self.assertEqual(len(self.index()["levels"]), 3)
+        self.assertNotEqual((self.output / "operations.txt").read_text(), at_once)
+
+    def test_accumulated_bound_has_levels_without_proofs(self):
+        self.run_hierarchy("--format", "off", "--bound", "accumulated")
+        for level in self.index()["levels"]:
+            self.assertTrue(level["certified"])
+            subprocess.run([SURETY, "compare", str(self.input), str(self.output / level["file"]),
+                            "-t", repr(level["tolerance"])], check=True, capture_output=True)
+
+    def test_controls_that_exclude_each_other(self):
+        for other in (("--placement", "free"), ("--normal-tolerance", "10"), ("--ridge-tolerance", "0.1%"),
+                      ("--certificates", "--format", "off")):
+            with self.subTest(other=other):
+                self.run_hierarchy("--bound", "accumulated", *other, status=USAGE)
+
     def test_bad_input(self):
         self.input.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n")
         self.run_hierarchy(status=BAD_INPUT)
