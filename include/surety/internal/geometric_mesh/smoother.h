@@ -38,7 +38,7 @@ public:
     return mesh_.is_on_feature(v) ? slide() : move_to_ideal_place();
   }
 
-  /// Flips an edge if that makes the worse of its two faces better.
+  /// Flips an edge if that makes the worse of its two faces better, and their mean no worse.
   bool flip(Index e)
   {
     constexpr double rounder = 0.98;
@@ -46,9 +46,10 @@ public:
     make_flip_disc(mesh_, mesh_.halfedge(e), disc_);
     const Vector &c = mesh_.point(disc_.ring[0]), &a = mesh_.point(disc_.ring[1]),
                  &d = mesh_.point(disc_.ring[2]), &b = mesh_.point(disc_.ring[3]);
-    const double before = std::max(shape_quality(a, b, c), shape_quality(b, a, d));
-    const double after = std::max(shape_quality(c, a, d), shape_quality(c, d, b));
-    return after < rounder * before && editor_.try_to(disc_);
+    const double left = shape_quality(a, b, c), right = shape_quality(b, a, d);
+    const double at_a = shape_quality(c, a, d), at_b = shape_quality(c, d, b);
+    return std::max(at_a, at_b) < rounder * std::max(left, right) && at_a + at_b <= left + right
+        && editor_.try_to(disc_);
   }
 
 private:
