@@ -135,6 +135,7 @@ private:
   // Step 2: the T edges that meet the disc, and their new crossings.
   void gather_edges();
   void gather_edges_of_flip();
+  void gather_winding_edges();
   void gather_edge(Index e)
   {
     if (slot_of_edge_.insert_if_new(e, static_cast<Index>(edges_.size())))

@@ -18,6 +18,7 @@ inline void Direct_bound::gather_edges()
   for (const Index spoke : disc_->old_spoke)
     map_.for_each_node_on_m(spoke, [&](Index n) { gather_edge(map_.node(n).t_edge); });
   if (disc_->kind == Disc::Kind::flip) gather_edges_of_flip();
+  gather_winding_edges();
   // Faces about a pin that stays turn with it, and T triangles at it have cells in them.
   if (bounds_normals() && disc_->is_closed() && disc_->keeps_pin)
     for (const Index e : reference_.edges_at(map_.pin(disc_->apex))) gather_edge(e);
@@ -37,6 +38,23 @@ inline void Direct_bound::gather_edges_of_flip()
   if (a == none || b == none) return;
   for (const Index e : reference_.edges_at(a))
     if (reference_.other_end(e, a) == b) gather_edge(e);
+}
+
+/// The T triangle that winds about a vertex W of M without a preimage meets every spoke of W: it
+/// crosses the spoke, or has a corner that is pinned to its other end. Where such a vertex stays in
+/// a disc and one of its spokes is changed, the triangle must be looked at again.
+inline void Direct_bound::gather_winding_edges()
+{
+  const auto gather_at = [&](Index w, Index end, Index spoke) {
+    if (map_.pin(w) != none || map_.first_node_of_m(spoke) != none || map_.pin(end) == none) return;
+    for (const Index e : reference_.edges_at(map_.pin(end))) gather_edge(e);
+  };
+  if (disc_->kind == Disc::Kind::flip) {
+    gather_at(disc_->ring[1], disc_->ring[3], disc_->old_spoke[0]);
+    gather_at(disc_->ring[3], disc_->ring[1], disc_->old_spoke[0]);
+  }
+  if (disc_->kind == Disc::Kind::relocation && !mesh_.is_ghost_vertex(disc_->ring[0]))
+    gather_at(disc_->apex, disc_->ring[0], disc_->old_spoke[0]);
 }
 
 inline bool Direct_bound::stop_at_vertex(Index v, float lambda, Stop& stop) const
