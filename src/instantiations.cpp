@@ -20,7 +20,6 @@ template Hausdorff_distance hausdorff_distance(
     const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&,
     const tool::No_parameters&);
 template Features find_features(const tool::Mesh&, const tool::Feature_parameters&);
-template Features find_features_by_need(const tool::Mesh&, double, const tool::Need_parameters&);
 template Mesh_statistics mesh_statistics(const tool::Mesh&, const tool::No_parameters&);
 template Curvature_field estimate_curvatures<tool::Concurrency>(
     const tool::Mesh&, const Features&, const tool::Curvature_parameters&);

@@ -151,7 +151,6 @@ using Need_parameters = decltype(need_parameters(0));
 using Curvature_parameters = decltype(curvature_parameters(0));
 using Metric_parameters = decltype(metric_parameters(std::declval<Metric_controls>()));
 using Gradation_parameters = decltype(parameters::gradation(1));
-using Need_parameters = decltype(parameters::corner_angle(0));
 using Remesh_parameters = decltype(remesh_parameters(
     std::declval<Remesh_controls>(), std::declval<Medit_solution>(), std::declval<Visitor>()));
 
@@ -180,8 +179,6 @@ extern template Curvature_field estimate_curvatures<tool::Concurrency>(
     const tool::Mesh&, const Features&, const tool::Curvature_parameters&);
 extern template Metric_field make_geometric_metric(
     const tool::Mesh&, const Curvature_field&, const tool::Metric_parameters&);
-extern template Features find_features_by_need(
-    const tool::Mesh&, double, const tool::Need_parameters&);
 extern template Remeshing remesh(tool::Mesh&, Features, double, const tool::Remesh_parameters&);
 extern template std::size_t limit_gradation(
     const tool::Mesh&, Metric_field&, const tool::Gradation_parameters&);

@@ -103,7 +103,7 @@ Features Remesh::find_features_of_input() const
 {
   if (feature_angle)
     return find_features(input_mesh_, feature_parameters(*feature_angle, corner_angle));
-  return find_features_by_need(input_mesh_, length_, parameters::corner_angle(corner_angle));
+  return find_features_by_need(input_mesh_, length_, need_parameters(corner_angle));
 }
 
 /// The user's sizes; without any, ones that are too large to matter.

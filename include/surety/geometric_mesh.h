@@ -106,7 +106,9 @@ void write_deviation(
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{deviation_bound}
 ///     \cgalParamDescription{`Deviation_bound::direct`, by a map from the input to the mesh, or
-///       `Deviation_bound::accumulated`, the paper's, which adds up from operation to operation}
+///       `Deviation_bound::accumulated`, the paper's, which adds up from operation to operation, or
+///       `Deviation_bound::covering`, cell by cell, which bounds surfaces but no curves and is
+///       slower}
 ///     \cgalParamDefault{`Deviation_bound::direct`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{shape_ratio}

@@ -124,8 +124,9 @@ void require_metric_of(
 /// that the metric asks for, the metric is made smaller there by factors of 0.8 and its gradation
 /// limited again; `fit` and `fit_of_given` tell how far that went.
 ///
-/// Ridges, borders and constrained edges stay curves, within the tolerance; corners and constrained
-/// vertices stay where they are. Genus, components and border loops are kept. No face that
+/// Ridges, borders and constrained edges stay curves, with vertices on the support's curves; the
+/// proof is about the surfaces, not about these. Corners and constrained vertices stay where they
+/// are. Genus, components and border loops are kept. No face that
 /// intersects another one is made; where the input has some, they are left alone.
 ///
 /// The mesh is replaced: descriptors and property maps of the input are void. The property map

@@ -74,18 +74,19 @@ Simplification_plan simplification_plan(const NamedParameters& np, const char* f
   plan.smoothing_sweeps = parameter_or(np, smoothing_sweeps, defaults::smoothing_sweeps);
   plan.stages = stage_shares(np, function);
   // The accumulated bound adds up over the steps, and would miss the goal.
-  const bool adds_up = parameter_or(np, deviation_bound, defaults::deviation_bound)
-      == Deviation_bound::accumulated;
-  plan.seeks_goal = plan.fewest_faces > 0 && plan.stages.size() == 1 && !adds_up;
+  const bool is_direct
+      = parameter_or(np, deviation_bound, defaults::deviation_bound) == Deviation_bound::direct;
+  plan.seeks_goal = plan.fewest_faces > 0 && plan.stages.size() == 1 && is_direct;
   const Effort effort_spent = parameter_or(np, effort, defaults::effort);
   if (effort_spent == Effort::standard) plan.overshoots = {1.4};
-  if (adds_up && plan.smoothing_sweeps > 0)
+  if (!is_direct && plan.smoothing_sweeps > 0)
     throw Invalid_input(
-        function, "smoothing_sweeps", "the accumulated bound has no operation that moves vertices",
+        function, "smoothing_sweeps",
+        "only the direct bound serves operations that move vertices here",
         "use Deviation_bound::direct");
-  if (plan.places_freely && adds_up)
+  if (plan.places_freely && !is_direct)
     throw Invalid_input(
-        function, "placement", "the accumulated bound has no operation that places vertices freely",
+        function, "placement", "only the direct bound serves free placement here",
         "use Placement::on_surface or Deviation_bound::direct");
   // It starts like the standard effort, so that it never leaves more faces.
   if (effort_spent == Effort::best) plan.overshoots = {1.4, 1.4, 1.6, 1.8, 2, 2};
@@ -201,17 +202,17 @@ public:
       normal_cosine_(read_normal_cosine(np, function)),
       ridge_tolerance_(scale_ * read_ridge_tolerance(np, function))
   {
-    if (kind_ == Deviation_bound::accumulated && !varying_tolerance_.empty())
+    if (kind_ != Deviation_bound::direct && !varying_tolerance_.empty())
       throw Invalid_input(
-          function, "tolerance maps", "the accumulated bound knows one tolerance only",
+          function, "tolerance maps", "only the direct bound knows more than one tolerance",
           "use Deviation_bound::direct");
-    if (kind_ == Deviation_bound::accumulated && normal_cosine_ > -1)
+    if (kind_ != Deviation_bound::direct && normal_cosine_ > -1)
       throw Invalid_input(
-          function, "normal_tolerance", "the accumulated bound knows no normals",
+          function, "normal_tolerance", "only the direct bound knows normals",
           "use Deviation_bound::direct");
-    if (kind_ == Deviation_bound::accumulated && ridge_tolerance_ < tolerance_)
+    if (kind_ != Deviation_bound::direct && ridge_tolerance_ < tolerance_)
       throw Invalid_input(
-          function, "ridge_tolerance", "the accumulated bound knows one tolerance only",
+          function, "ridge_tolerance", "only the direct bound knows more than one tolerance",
           "use Deviation_bound::direct");
     using Coordinate
         = std::decay_t<decltype(get(vertex_points(mesh, np), *mesh.vertices().begin()).x())>;
@@ -274,7 +275,7 @@ public:
   }
 
   /// The map phi, for an output in which the elements of M stand where `compaction` says; absent
-  /// with the accumulated bound.
+  /// with other bounds than the direct one.
   std::optional<Correspondence> record(const Compaction& compaction)
   {
     if (direct_ == nullptr) return std::nullopt;
