@@ -18,10 +18,8 @@
 #include <surety/geometric_support.h>
 #include <surety/gradation.h>
 #include <surety/hierarchy.h>
-#include <surety/medit_sol.h>
 #include <surety/metric.h>
 #include <surety/parameters.h>
-#include <surety/remesh.h>
 #include <surety/statistics.h>
 
 #include <cstddef>
@@ -109,35 +107,6 @@ inline auto metric_parameters(const Metric_controls& controls)
       .metric_kind(controls.kind);
 }
 
-/// The controls of `remesh`, lengths in mesh units.
-struct Remesh_controls {
-  Metric_kind kind = internal::defaults::remesh_metric_kind;
-  Placement placement = internal::defaults::unit_mesh_placement;
-  bool fewest_faces = internal::defaults::fewest_faces;
-  double gradation = 0; ///< 0: the library's choice
-  double minimum_size = 0, maximum_size = 0;
-  double maximum_aspect_ratio = internal::defaults::maximum_aspect_ratio;
-  unsigned iterations = internal::defaults::unit_mesh_iterations;
-  bool allow_self_intersections = internal::defaults::allow_self_intersections;
-};
-
-/// \param sizes the user's, or ones that ask for nothing
-inline auto remesh_parameters(
-    const Remesh_controls& controls, const Medit_solution& sizes, const Visitor& visitor)
-{
-  return parameters::metric_kind(controls.kind)
-      .placement(controls.placement)
-      .fewest_faces(controls.fewest_faces)
-      .gradation(controls.gradation)
-      .minimum_size(controls.minimum_size)
-      .maximum_size(controls.maximum_size)
-      .maximum_aspect_ratio(controls.maximum_aspect_ratio)
-      .size_field(sizes)
-      .allow_self_intersections(controls.allow_self_intersections)
-      .number_of_iterations(controls.iterations)
-      .visitor(visitor);
-}
-
 /// On all threads where TBB is there; the result is the same.
 using Concurrency = CGAL::Parallel_if_available_tag;
 
@@ -151,8 +120,6 @@ using Need_parameters = decltype(need_parameters(0));
 using Curvature_parameters = decltype(curvature_parameters(0));
 using Metric_parameters = decltype(metric_parameters(std::declval<Metric_controls>()));
 using Gradation_parameters = decltype(parameters::gradation(1));
-using Remesh_parameters = decltype(remesh_parameters(
-    std::declval<Remesh_controls>(), std::declval<Medit_solution>(), std::declval<Visitor>()));
 
 } // namespace surety::tool
 
@@ -179,7 +146,6 @@ extern template Curvature_field estimate_curvatures<tool::Concurrency>(
     const tool::Mesh&, const Features&, const tool::Curvature_parameters&);
 extern template Metric_field make_geometric_metric(
     const tool::Mesh&, const Curvature_field&, const tool::Metric_parameters&);
-extern template Remeshing remesh(tool::Mesh&, Features, double, const tool::Remesh_parameters&);
 extern template std::size_t limit_gradation(
     const tool::Mesh&, Metric_field&, const tool::Gradation_parameters&);
 extern template Geometric_support make_geometric_support(

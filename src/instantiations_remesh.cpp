@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The unit mesh, apart from the rest, so that both compile at the same time.
-#include "instantiations.h"
+#include "remeshing.h"
 
 namespace surety {
 

@@ -4,12 +4,12 @@
 // before everything has succeeded.
 #include "commands.h"
 #include "controls.h"
-#include "instantiations.h"
 #include "interruption.h"
 #include "length.h"
 #include "mesh_reading.h"
 #include "mesh_writing.h"
 #include "output_files.h"
+#include "remeshing.h"
 #include "report.h"
 #include "soup_reading.h"
 
