@@ -11,7 +11,7 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "doc/manual").glob("*.md"))]
 QUOTE = re.compile(r"<!-- (doc/examples/\S+) -->\n```cpp\n(.*?)```", re.DOTALL)
-COMMANDS = ("simplify", "compare", "verify", "info", "hierarchy")
+COMMANDS = ("simplify", "remesh", "compare", "verify", "info", "hierarchy")
 
 
 def without_header(source):

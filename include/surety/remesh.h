@@ -187,7 +187,8 @@ Remeshing remesh(
       mesh, features, parameters::noise_floor(tolerance / 3).vertex_point_map(points));
   Metric_field metric
       = internal::metric_to_remesh(mesh, curvature, tolerance, is_for_fewest, beta, np);
-  Geometric_support support = make_geometric_support(mesh, tolerance, features, curvature, np);
+  Geometric_support support = make_geometric_support(
+      mesh, tolerance, features, curvature, CGAL::parameters::vertex_point_map(points));
   const double least = internal::positive_or(
       choose_parameter(get_parameter(np, internal::minimum_size), 0.), 2 * tolerance,
       "minimum_size");

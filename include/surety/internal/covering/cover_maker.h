@@ -94,7 +94,7 @@ private:
     if (cell.is_full()) return cell.halving_cut();
     std::uint64_t tried = 0;
     double most = 0;
-    Vector best_origin, best_normal;
+    Vector best_origin = Vector::Zero(), best_normal = Vector::Zero();
     for (unsigned i = 0; i < cell.size(); ++i) {
       const Index nearest = cell[i].known.nearest;
       if ((tried >> nearest & 1) != 0) continue;

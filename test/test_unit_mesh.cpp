@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Unit meshes: that they are unit, within the tolerance by every witness, of the same topology,
+// with their curves and corners kept, and that the covering bound behind them is sound.
+#include <surety/distance.h>
+#include <surety/geometric_mesh.h>
+#include <surety/remesh.h>
+#include <surety/statistics.h>
+
+#include "invariants.h"
+#include "meshes.h"
+#include "sampled_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+#include <CGAL/boost/graph/generators.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+namespace surety::test {
+namespace {
+
+double diagonal_of(const Mesh& mesh) { return mesh_statistics(mesh).diagonal; }
+
+/// What holds for every result.
+void expect_promises(
+    const Mesh& before, const Mesh& after, double tolerance, const Unit_mesh_result& result)
+{
+  EXPECT_TRUE(is_sound(after));
+  EXPECT_TRUE(have_same_topology(before, after));
+  EXPECT_TRUE(result.certificate.holds());
+  EXPECT_LE(result.certificate.bound(), tolerance);
+  EXPECT_TRUE(certify_distance(before, after, tolerance).holds());
+  EXPECT_LE(number_of_self_intersections(after), number_of_self_intersections(before));
+  // b(K) is a bound for the points of K.
+  const auto deviation = after.property_map<Face, double>("f:deviation").first;
+  const Closest_triangle input(before);
+  for (const Face f : after.faces()) {
+    const auto h = after.halfedge(f);
+    const Point centre = CGAL::centroid(
+        after.point(after.source(h)), after.point(after.target(h)),
+        after.point(after.target(after.next(h))));
+    EXPECT_LE(input.distance(centre), deviation[f] * (1 + 1e-12) + 1e-14);
+  }
+}
+
+Mesh wavy_grid(std::size_t n)
+{
+  return height_field(n, [](double x, double y) { return .1 * std::sin(4 * x) * std::cos(3 * y); });
+}
+
+TEST(Remesh, makes_a_sphere_unit)
+{
+  const Mesh sphere = icosphere(4);
+  const double tolerance = .002 * diagonal_of(sphere);
+  Mesh result = sphere;
+  const Remeshing answer = remesh(result, tolerance);
+  expect_promises(sphere, result, tolerance, answer.unit_mesh);
+  EXPECT_GE(answer.unit_mesh.fit.unit_edges, 99.5);
+  EXPECT_GE(answer.unit_mesh.fit.efficiency_index, .975);
+  EXPECT_LE(answer.unit_mesh.fit.Q_avg, 1.17);
+  EXPECT_LE(answer.unit_mesh.fit.Q_max, 2.5);
+  EXPECT_GT(answer.unit_mesh.certificate.operations().collapses, 0u);
+  EXPECT_GT(answer.unit_mesh.certificate.operations().relocations, 0u);
+}
+
+TEST(Remesh, splits_where_sizes_are_smaller_than_the_input)
+{
+  Mesh result = icosphere(2);
+  const Mesh sphere = result;
+  const double size = .12;
+  const Remeshing answer
+      = remesh(result, .05, parameters::feature_angle(180).minimum_size(size).maximum_size(size));
+  expect_promises(sphere, result, .05, answer.unit_mesh);
+  EXPECT_GT(answer.unit_mesh.certificate.operations().splits, 500u);
+  // Some 0.43 size^2 a face.
+  const double expected = 4 * pi / (.433 * size * size);
+  EXPECT_GT(double(result.number_of_faces()), .8 * expected);
+  EXPECT_LT(double(result.number_of_faces()), 1.5 * expected);
+  EXPECT_GE(answer.unit_mesh.fit.unit_edges, 99);
+}
+
+Mesh unit_cube()
+{
+  Mesh cube;
+  CGAL::make_hexahedron(
+      Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0), Point(0, 1, 0), Point(0, 1, 1),
+      Point(0, 0, 1), Point(1, 0, 1), Point(1, 1, 1), cube);
+  CGAL::Polygon_mesh_processing::triangulate_faces(cube);
+  return cube;
+}
+
+TEST(Remesh, keeps_the_edges_of_a_cube)
+{
+  const Mesh cube = subdivided(unit_cube(), 3);
+  Mesh result = cube;
+  const Remeshing answer = remesh(result, .01, parameters::feature_angle(40));
+  expect_promises(cube, result, .01, answer.unit_mesh);
+  EXPECT_EQ(answer.features.corners, 8u);
+  // Twelve edges of length 1 stay straight.
+  const auto is_feature = result.property_map<Mesh::Edge_index, bool>("e:is_feature").first;
+  double length = 0;
+  for (const auto e : result.edges()) {
+    if (!is_feature[e]) continue;
+    const auto h = result.halfedge(e);
+    length += std::sqrt(
+        CGAL::squared_distance(result.point(result.source(h)), result.point(result.target(h))));
+  }
+  EXPECT_NEAR(length, 12, 1e-9);
+}
+
+TEST(Remesh, leaves_a_cube_of_twelve_faces_within_the_tolerance)
+{
+  const Mesh cube = unit_cube();
+  Mesh result = cube;
+  const double tolerance = .01 * std::sqrt(3);
+  const Remeshing answer
+      = remesh(result, tolerance, parameters::feature_angle(180).number_of_iterations(3u));
+  expect_promises(cube, result, tolerance, answer.unit_mesh);
+}
+
+TEST(Remesh, serves_open_meshes)
+{
+  const Mesh patch = wavy_grid(24);
+  Mesh result = patch;
+  const double tolerance = .003 * diagonal_of(patch);
+  const Remeshing answer = remesh(result, tolerance);
+  expect_promises(patch, result, tolerance, answer.unit_mesh);
+  EXPECT_EQ(border_loops(result), 1u);
+}
+
+TEST(Remesh, stretches_faces_along_a_torus)
+{
+  const Mesh tube = torus(120, 40, 1, .15);
+  const double tolerance = .001 * diagonal_of(tube);
+  Mesh round = tube, stretched = tube;
+  remesh(round, tolerance);
+  const Remeshing answer
+      = remesh(stretched, tolerance, parameters::metric_kind(Metric_kind::anisotropic));
+  expect_promises(tube, stretched, tolerance, answer.unit_mesh);
+  EXPECT_LT(1.2 * double(stretched.number_of_faces()), double(round.number_of_faces()));
+  EXPECT_GE(answer.unit_mesh.fit.unit_edges, 98.5);
+  EXPECT_LE(answer.unit_mesh.fit.Q_avg, 1.19);
+}
+
+TEST(Remesh, takes_fewer_faces_when_asked)
+{
+  const Mesh sphere = icosphere(4);
+  Mesh close = sphere, few = sphere;
+  remesh(close, .005);
+  const Remeshing answer = remesh(few, .005, parameters::fewest_faces(true));
+  expect_promises(sphere, few, .005, answer.unit_mesh);
+  EXPECT_LT(1.2 * double(few.number_of_faces()), double(close.number_of_faces()));
+}
+
+TEST(Remesh, is_deterministic_and_free_of_scale)
+{
+  const Mesh shape = torus(48, 24);
+  Mesh one = shape, two = shape, large = shape;
+  for (const auto v : large.vertices()) {
+    const Point& p = shape.point(v);
+    large.point(v) = Point(1024 * p.x(), 1024 * p.y(), 1024 * p.z());
+  }
+  remesh(one, .01);
+  remesh(two, .01);
+  remesh(large, 10.24);
+  ASSERT_EQ(one.number_of_vertices(), two.number_of_vertices());
+  ASSERT_EQ(one.number_of_vertices(), large.number_of_vertices());
+  for (const auto v : one.vertices()) {
+    EXPECT_EQ(one.point(v), two.point(v));
+    EXPECT_EQ(1024 * one.point(v).x(), large.point(v).x());
+  }
+}
+
+struct Impatient {
+  int* left;
+  bool on_progress(const Progress& progress) const
+  {
+    EXPECT_STREQ(progress.stage, "unit_mesh");
+    return --*left > 0;
+  }
+};
+
+TEST(Remesh, leaves_a_certified_mesh_when_cancelled)
+{
+  const Mesh sphere = icosphere(4);
+  for (const int patience : {1, 3, 10}) {
+    int left = patience;
+    Mesh result = sphere;
+    const Remeshing answer
+        = remesh(result, .005, parameters::placement(Placement::free).visitor(Impatient{&left}));
+    EXPECT_TRUE(answer.unit_mesh.certificate.is_cancelled());
+    expect_promises(sphere, result, .005, answer.unit_mesh);
+  }
+}
+
+TEST(Remesh, keeps_vertices_on_the_support_when_asked)
+{
+  const Mesh sphere = icosphere(4);
+  Mesh result = sphere;
+  const Remeshing answer = remesh(result, .005, parameters::placement(Placement::on_surface));
+  expect_promises(sphere, result, .005, answer.unit_mesh);
+  for (const auto v : result.vertices()) {
+    const Point& p = result.point(v);
+    const auto nearest
+        = answer.support.guaranteed_closest_point(Eigen::Vector3d(p.x(), p.y(), p.z()));
+    EXPECT_LT(std::sqrt(nearest.squared_distance), 1e-6);
+  }
+}
+
+TEST(Remesh, refuses_what_it_cannot_use)
+{
+  Mesh mesh = icosphere(1);
+  const Mesh before = mesh;
+  EXPECT_THROW(remesh(mesh, 0), Invalid_input);
+  EXPECT_THROW(remesh(mesh, -1), Invalid_input);
+  EXPECT_THROW(remesh(mesh, .1, parameters::gradation(.5)), Invalid_input);
+  EXPECT_THROW(remesh(mesh, .1, parameters::maximum_size(-1.)), Invalid_input);
+  Mesh empty;
+  EXPECT_THROW(remesh(empty, .1), Invalid_input);
+  const Features features = find_features(before);
+  const Metric_field other = make_uniform_metric(
+      icosphere(2), find_sides(icosphere(2), find_features(icosphere(2))), .1);
+  EXPECT_THROW(make_unit_mesh(mesh, features, other), Invalid_input);
+  EXPECT_EQ(mesh.number_of_faces(), before.number_of_faces());
+}
+
+TEST(Covering_bound, simplifies_within_the_tolerance)
+{
+  for (const Mesh& mesh : {icosphere(3), torus(48, 24), wavy_grid(24)}) {
+    for (const double share : {.001, .01}) {
+      const double tolerance = share * diagonal_of(mesh);
+      Mesh result = mesh;
+      const Certificate certificate = make_geometric_mesh(
+          result, tolerance,
+          parameters::deviation_bound(Deviation_bound::covering).effort(Effort::fast));
+      EXPECT_TRUE(certificate.holds());
+      EXPECT_LT(result.number_of_faces(), mesh.number_of_faces());
+      EXPECT_TRUE(certify_distance(mesh, result, tolerance).holds());
+      EXPECT_TRUE(have_same_topology(mesh, result));
+    }
+  }
+}
+
+TEST(Remesh, keeps_its_promises_on_real_models)
+{
+  const char* const folder = std::getenv("SURETY_DATA_DIR");
+  if (folder == nullptr || *folder == 0) GTEST_SKIP() << "SURETY_DATA_DIR is not set";
+  for (const std::string name : {"fandisk", "rotor_small", "blobby"}) {
+    Mesh mesh;
+    ASSERT_TRUE(CGAL::IO::read_polygon_mesh(std::string(folder) + "/" + name + ".off", mesh));
+    SCOPED_TRACE(name);
+    Mesh result = mesh;
+    const double tolerance = .002 * diagonal_of(mesh);
+    const Remeshing answer = remesh(result, tolerance);
+    expect_promises(mesh, result, tolerance, answer.unit_mesh);
+    EXPECT_GE(answer.unit_mesh.fit.unit_edges, 95);
+  }
+}
+
+} // namespace
+} // namespace surety::test
