@@ -3,7 +3,7 @@
 // surety compare: how far apart are two meshes? A certified interval each way, with the places
 // where the distance occurs; or, given a tolerance, a proof or a counter-example.
 #include "commands.h"
-#include "instantiations.h"
+#include "library_checks.h"
 #include "length.h"
 #include "mesh_reading.h"
 #include "output_files.h"

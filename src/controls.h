@@ -4,7 +4,7 @@
 #ifndef SURETY_TOOL_CONTROLS_H
 #define SURETY_TOOL_CONTROLS_H
 
-#include "instantiations.h"
+#include "parameter_chains.h"
 #include "report.h"
 
 #include <CLI/CLI.hpp>

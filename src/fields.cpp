@@ -3,7 +3,8 @@
 
 #include "commands.h"
 #include "controls.h"
-#include "instantiations.h"
+#include "library_description.h"
+#include "library_fields.h"
 #include "length.h"
 
 #include <array>

@@ -5,7 +5,7 @@
 #include "commands.h"
 #include "field_writing.h"
 #include "fields.h"
-#include "instantiations.h"
+#include "library_description.h"
 #include "mesh_reading.h"
 #include "output_files.h"
 #include "report.h"

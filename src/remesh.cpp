@@ -6,10 +6,12 @@
 #include "controls.h"
 #include "interruption.h"
 #include "length.h"
+#include "library_checks.h"
+#include "library_description.h"
+#include "library_remeshing.h"
 #include "mesh_reading.h"
 #include "mesh_writing.h"
 #include "output_files.h"
-#include "remeshing.h"
 #include "report.h"
 #include "soup_reading.h"
 

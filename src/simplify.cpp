@@ -4,7 +4,9 @@
 // everything has succeeded.
 #include "commands.h"
 #include "controls.h"
-#include "instantiations.h"
+#include "library_checks.h"
+#include "library_description.h"
+#include "library_simplification.h"
 #include "interruption.h"
 #include "length.h"
 #include "mesh_reading.h"

@@ -2,7 +2,8 @@
 #include "support.h"
 
 #include "failure.h"
-#include "instantiations.h"
+#include "library_description.h"
+#include "library_fields.h"
 #include "length.h"
 
 #include <sstream>

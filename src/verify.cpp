@@ -2,7 +2,8 @@
 //
 // surety verify: checks a certificate file against the two meshes, and trusts neither.
 #include "commands.h"
-#include "instantiations.h"
+#include "library_checks.h"
+#include "library_description.h"
 #include "mesh_reading.h"
 #include "output_files.h"
 #include "report.h"

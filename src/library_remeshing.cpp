@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// The unit mesh, apart from the rest, so that both compile at the same time.
-#include "remeshing.h"
+#include "library_remeshing.h"
 
 namespace surety {
 

@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The library's functions as the command line calls them: one mesh type, and one chain of named
-// parameters a function. All are instantiated once, in instantiations.cpp, because each takes
-// many seconds to compile.
-#ifndef SURETY_TOOL_INSTANTIATIONS_H
-#define SURETY_TOOL_INSTANTIATIONS_H
+// What the command line passes to the library: its controls, and one chain of named parameters a
+// function. The functions themselves are declared by stage, in the headers library_*.h, since each
+// of them takes seconds to read; they are instantiated once, in the files of the same names.
+#ifndef SURETY_TOOL_PARAMETER_CHAINS_H
+#define SURETY_TOOL_PARAMETER_CHAINS_H
 
 #include "mesh.h"
 #include "progress.h"
 
-#include <surety/certificate.h>
-#include <surety/curvature.h>
-#include <surety/distance.h>
-#include <surety/features.h>
-#include <surety/features_by_need.h>
-#include <surety/geometric_mesh.h>
-#include <surety/geometric_support.h>
-#include <surety/gradation.h>
-#include <surety/hierarchy.h>
-#include <surety/metric.h>
 #include <surety/parameters.h>
-#include <surety/statistics.h>
+
+#include <CGAL/tags.h>
 
 #include <cstddef>
 #include <string>
@@ -123,34 +114,4 @@ using Gradation_parameters = decltype(parameters::gradation(1));
 
 } // namespace surety::tool
 
-namespace surety {
-
-extern template Certificate make_geometric_mesh<tool::Concurrency>(
-    tool::Mesh&, double, const tool::Simplify_parameters&);
-extern template Hierarchy<tool::Mesh> make_hierarchy(
-    const tool::Mesh&, const std::vector<double>&, const tool::Hierarchy_parameters&);
-extern template Certificate_check check_certificate(
-    const tool::Mesh&, const tool::Mesh&, const Certificate&, const tool::No_parameters&,
-    const tool::No_parameters&);
-extern template Distance_certificate certify_distance(
-    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&,
-    const tool::No_parameters&);
-extern template Hausdorff_distance hausdorff_distance(
-    const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&,
-    const tool::No_parameters&);
-extern template Features find_features(const tool::Mesh&, const tool::Feature_parameters&);
-extern template Features find_features_by_need(
-    const tool::Mesh&, double, const tool::Need_parameters&);
-extern template Mesh_statistics mesh_statistics(const tool::Mesh&, const tool::No_parameters&);
-extern template Curvature_field estimate_curvatures<tool::Concurrency>(
-    const tool::Mesh&, const Features&, const tool::Curvature_parameters&);
-extern template Metric_field make_geometric_metric(
-    const tool::Mesh&, const Curvature_field&, const tool::Metric_parameters&);
-extern template std::size_t limit_gradation(
-    const tool::Mesh&, Metric_field&, const tool::Gradation_parameters&);
-extern template Geometric_support make_geometric_support(
-    const tool::Mesh&, double, const Features&, const Curvature_field&, const tool::No_parameters&);
-
-} // namespace surety
-
-#endif // SURETY_TOOL_INSTANTIATIONS_H
+#endif // SURETY_TOOL_PARAMETER_CHAINS_H

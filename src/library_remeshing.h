@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The function `remesh` as the command line calls it; apart from instantiations.h, because it takes
-// as long to read as all the rest.
-#ifndef SURETY_TOOL_REMESHING_H
-#define SURETY_TOOL_REMESHING_H
+// The whole pipeline.
+#ifndef SURETY_TOOL_LIBRARY_REMESHING_H
+#define SURETY_TOOL_LIBRARY_REMESHING_H
 
-#include "instantiations.h"
+#include "parameter_chains.h"
 
 #include <surety/medit_sol.h>
 #include <surety/remesh.h>
@@ -54,4 +53,4 @@ extern template Remeshing remesh(tool::Mesh&, Features, double, const tool::Reme
 
 } // namespace surety
 
-#endif // SURETY_TOOL_REMESHING_H
+#endif // SURETY_TOOL_LIBRARY_REMESHING_H
