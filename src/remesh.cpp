@@ -192,7 +192,7 @@ Json histogram(const double* limits, std::size_t number, const std::size_t* coun
   return result;
 }
 
-Json to_json(const Metric_fit& fit)
+Json describe_fit(const Metric_fit& fit)
 {
   return {
       {"unit_edges", fit.unit_edges},
@@ -214,8 +214,8 @@ Json Remesh::describe_output() const
   Json json = to_json(output, after_);
   json["unit_edges"] = result_->fit.unit_edges;
   json["efficiency_index"] = result_->fit.efficiency_index;
-  json["metric"] = to_json(result_->fit);
-  json["given_metric"] = to_json(result_->fit_of_given);
+  json["metric"] = describe_fit(result_->fit);
+  json["given_metric"] = describe_fit(result_->fit_of_given);
   return json;
 }
 
