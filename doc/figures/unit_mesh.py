@@ -13,7 +13,7 @@ import sys
 from heat_map import surface
 from scene import draw, from_a_corner, read_off
 
-SIZE = (2400, 800)
+SIZE = (2400, 640)
 
 
 def main(input_path, isotropic_path, anisotropic_path, picture_path):
@@ -22,7 +22,7 @@ def main(input_path, isotropic_path, anisotropic_path, picture_path):
                        ("anisotropic", anisotropic_path)):
         data = read_off(path)
         views.append((f"{name}: {data.GetNumberOfPolys():,} faces", [surface(data)]))
-    draw(views, SIZE, from_a_corner(1.2), picture_path)
+    draw(views, SIZE, from_a_corner(1.3), picture_path)
 
 
 if __name__ == "__main__":
