@@ -258,6 +258,16 @@ private:
     offset_[v] = apex.offset;
   }
 
+  /// Makes the relocation that check() has just accepted.
+  void move_apex(const Apex& apex)
+  {
+    bound_.commit(disc_);
+    mesh_.move(disc_.apex, apex.point, none);
+    stand_at(disc_.apex, apex);
+    if (guard_) guard_->commit(disc_);
+    ++operations_.relocations;
+  }
+
   std::optional<Apex> middle_of(Index e) const;
   double mean_offset(Index h, const Apex& apex) const
   {
@@ -542,11 +552,7 @@ inline bool Editor::relocate(Index v)
     if (!(energy(apex) < (1 - gain) * before)) continue;
     verdict = check(apex);
     if (verdict != Verdict::accept) continue;
-    bound_.commit(disc_);
-    mesh_.move(v, apex.point, none);
-    stand_at(v, apex);
-    if (guard_) guard_->commit(disc_);
-    ++operations_.relocations;
+    move_apex(apex);
     return true;
   }
   if (verdict != Verdict::accept) operations_.refuse(verdict);
@@ -564,11 +570,7 @@ inline bool Editor::centre(Index v)
   if (refuses_shape(apex)) return false;
   const Verdict verdict = check(apex);
   if (verdict != Verdict::accept) return refuse(verdict);
-  bound_.commit(disc_);
-  mesh_.move(v, apex.point, none);
-  stand_at(v, apex);
-  if (guard_) guard_->commit(disc_);
-  ++operations_.relocations;
+  move_apex(apex);
   return true;
 }
 
