@@ -229,7 +229,29 @@ TEST(Remesh, refuses_what_it_cannot_use)
   const Metric_field other = make_uniform_metric(
       icosphere(2), find_sides(icosphere(2), find_features(icosphere(2))), .1);
   EXPECT_THROW(make_unit_mesh(mesh, features, other), Invalid_input);
+  EXPECT_THROW(make_unit_mesh(mesh, find_features(icosphere(2)), other), Invalid_input);
+  EXPECT_THROW(remesh(mesh, find_features(icosphere(2)), .1), Invalid_input);
   EXPECT_EQ(mesh.number_of_faces(), before.number_of_faces());
+}
+
+/// A cone whose apex has more faces than there are candidates to cover a cell.
+TEST(Covering_bound, proves_every_face_of_a_large_fan)
+{
+  constexpr std::size_t around = 200;
+  Mesh cone;
+  const Vertex apex = cone.add_vertex(Point(0, 0, .3));
+  std::vector<Vertex> ring;
+  for (std::size_t i = 0; i < around; ++i) {
+    const double t = 2 * pi * double(i) / double(around);
+    ring.push_back(cone.add_vertex(Point(std::cos(t), std::sin(t), 0)));
+  }
+  for (std::size_t i = 0; i < around; ++i) cone.add_face(apex, ring[i], ring[(i + 1) % around]);
+  const double tolerance = .005 * diagonal_of(cone);
+  for (const auto kind : {Metric_kind::isotropic, Metric_kind::anisotropic}) {
+    Mesh result = cone;
+    const Remeshing answer = remesh(result, tolerance, parameters::metric_kind(kind));
+    expect_promises(cone, result, tolerance, answer.unit_mesh);
+  }
 }
 
 TEST(Covering_bound, simplifies_within_the_tolerance)
@@ -242,7 +264,9 @@ TEST(Covering_bound, simplifies_within_the_tolerance)
           result, tolerance,
           parameters::deviation_bound(Deviation_bound::covering).effort(Effort::fast));
       EXPECT_TRUE(certificate.holds());
-      if (share == .01) EXPECT_LT(2 * result.number_of_faces(), mesh.number_of_faces());
+      if (share == .01) {
+        EXPECT_LT(2 * result.number_of_faces(), mesh.number_of_faces());
+      }
       EXPECT_TRUE(certify_distance(mesh, result, tolerance).holds());
       EXPECT_TRUE(have_same_topology(mesh, result));
     }

@@ -174,7 +174,9 @@ Remeshing remesh(
   using CGAL::parameters::get_parameter;
 
   const char* const function = "remesh";
+  internal::require_valid_mesh(mesh, function, "mesh", np);
   internal::require_positive(tolerance, function, "tolerance");
+  internal::require_features_of(mesh, features, function);
   const bool is_for_fewest = choose_parameter(
       get_parameter(np, internal::fewest_faces), internal::defaults::fewest_faces);
   const double beta = internal::positive_or(

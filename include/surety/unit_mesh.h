@@ -98,6 +98,15 @@ Geometric_support support_for_unit_mesh(
   }
 }
 
+template <class Mesh>
+void require_features_of(const Mesh& mesh, const Features& features, const char* function)
+{
+  if (features.edge.size() == num_edges(mesh) && features.corner.size() == num_vertices(mesh))
+    return;
+  throw Invalid_input(
+      function, "features", "they do not belong to the mesh", "find them in this mesh");
+}
+
 /// The metric must have the sides that the features make, or curves would be lost.
 template <class Mesh>
 void require_metric_of(
@@ -198,6 +207,7 @@ Unit_mesh_result make_unit_mesh(
 {
   const char* const function = "make_unit_mesh";
   internal::require_valid_mesh(mesh, function, "mesh", np);
+  internal::require_features_of(mesh, features, function);
   internal::require_metric_of(mesh, features, metric, function);
   const double length = internal::unit_mesh_tolerance(mesh, np, function);
   const auto controls = internal::unit_mesh_controls(length, np, function);

@@ -330,7 +330,7 @@ inline void Working_mesh::make_room()
   anchor_.resize(real_vertices_, none);
   close_borders();
   index_halfedges();
-  on_feature_.resize(fixed_.size(), true);
+  on_feature_.resize(fixed_.size(), false);
   find_unused();
 }
 

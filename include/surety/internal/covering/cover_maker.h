@@ -20,7 +20,6 @@ using Cell = Convex_cell<Nearness>;
 /// parts at `child` and `child + 1`.
 struct Cover_node {
   Cell cell;
-  Cut cut{};
   Index child = none;
   Index triangle = none;
 };
@@ -38,7 +37,8 @@ public:
     const auto root = static_cast<Index>(nodes.size());
     nodes.emplace_back();
     nodes.back().cell = cell;
-    return divide(root, depth, candidates, squared_limit, nodes);
+    const std::size_t most = nodes.size() + most_nodes;
+    return divide(root, depth, candidates, squared_limit, most, nodes);
   }
 
   static Cell triangle_cell(const std::array<Vector, 3>& corners)
@@ -49,11 +49,11 @@ public:
   }
 
 private:
-  /// More leaves than this a cell are a sign of a tolerance that is out of reach.
+  /// More nodes than this for one cell are a sign of a tolerance that is out of reach.
   static constexpr std::size_t most_nodes = 4000;
 
   bool divide(
-      Index node, int depth, const Candidates& candidates, double squared_limit,
+      Index node, int depth, const Candidates& candidates, double squared_limit, std::size_t most,
       std::vector<Cover_node>& nodes)
   {
     const Cell cell = nodes[node].cell;
@@ -66,18 +66,17 @@ private:
       nodes[node].triangle = lowest_bit(common);
       return true;
     }
-    if (depth >= deepest_cut || nodes.size() > most_nodes) return false;
+    if (depth >= deepest_cut || nodes.size() > most) return false;
     const Cut cut = best_cut(cell, candidates);
     const auto parts
         = cell.parts(cut, [&](const Vector& p) { return candidates.around(p, squared_limit); });
     const auto child = static_cast<Index>(nodes.size());
     nodes.resize(nodes.size() + 2);
     nodes[node].child = child;
-    nodes[node].cut = cut;
     nodes[child].cell = parts.first;
     nodes[child + 1].cell = parts.second;
-    return divide(child, depth + 1, candidates, squared_limit, nodes)
-        && divide(child + 1, depth + 1, candidates, squared_limit, nodes);
+    return divide(child, depth + 1, candidates, squared_limit, most, nodes)
+        && divide(child + 1, depth + 1, candidates, squared_limit, most, nodes);
   }
 
   static Index lowest_bit(std::uint64_t bits)

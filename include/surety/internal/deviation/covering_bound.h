@@ -56,8 +56,8 @@ public:
     for (const Index f : disc.old_face) forest_.clear_leaves_of(f);
     for (const auto& [node, root] : planted_)
       forest_.plant(node, nodes_, root, [&](Index i) { return candidates_[i].face; });
-    for (std::size_t i = 0; i < new_faces_; ++i) {
-      const Index f = candidates_[i].face;
+    for (std::size_t i = 0; i < new_faces_.size(); ++i) {
+      const Index f = new_faces_[i].face;
       if (f >= seed_.size()) {
         seed_.resize(f + 1, none);
         bound_.resize(f + 1, 0);
@@ -112,20 +112,25 @@ private:
     return {mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), f};
   }
 
-  /// The candidates to cover T: the new faces, and those across the link.
+  /// All new faces, each of which is to be proven; and the candidates to cover T: these, and those
+  /// across the link.
   void set_faces(const Disc& disc)
   {
+    new_faces_.clear();
+    outer_faces_.clear();
     candidates_.clear();
     disc.for_each_new_face([&](Index i) {
       if (mesh_.is_ghost_face(disc.face[i])) return;
-      candidates_.add(
-          {disc.apex_point, mesh_.point(disc.ring[i]), mesh_.point(disc.ring[disc.after(i)]),
-           disc.face[i]});
+      new_faces_.emplace_back(
+          disc.apex_point, mesh_.point(disc.ring[i]), mesh_.point(disc.ring[disc.after(i)]),
+          disc.face[i]);
+      candidates_.add(new_faces_.back());
     });
-    new_faces_ = candidates_.size();
     for (const Index h : disc.inner) {
       const Index f = mesh_.face(Working_mesh::opposite(h));
-      if (!mesh_.is_ghost_face(f) && disc.position_of_old_face(f) == none) candidates_.add(face(f));
+      if (mesh_.is_ghost_face(f) || disc.position_of_old_face(f) != none) continue;
+      outer_faces_.push_back(f);
+      candidates_.add(face(f));
     }
   }
 
@@ -135,14 +140,12 @@ private:
     seeds_.clear();
     for (const Index f : disc.old_face)
       if (!mesh_.is_ghost_face(f)) seeds_.push_back(seed_[f]);
-    for (std::size_t i = new_faces_; i < candidates_.size(); ++i)
-      seeds_.push_back(seed_[candidates_[i].face]);
+    for (const Index f : outer_faces_) seeds_.push_back(seed_[f]);
     new_seed_.clear();
     new_bound_.clear();
-    for (std::size_t i = 0; i < new_faces_; ++i) {
-      auto proof = projection_.prove(candidates_[i], seeds_, squared_limit_);
-      if (!proof && projection_.visited().size() <= worth_cells)
-        proof = prove_by_cells(candidates_[i], disc);
+    for (const covering::Triangle& face : new_faces_) {
+      auto proof = projection_.prove(face, seeds_, squared_limit_);
+      if (!proof && projection_.visited().size() <= worth_cells) proof = prove_by_cells(face, disc);
       if (!proof) return false;
       new_seed_.push_back(proof->seed);
       new_bound_.push_back(proof->squared_distance);
@@ -254,8 +257,8 @@ private:
   std::vector<double> bound_; ///< squared distance of each face of M to T, as computed
 
   covering::Candidates candidates_, nearby_;
-  std::size_t new_faces_ = 0;
-  std::vector<Index> seeds_, new_seed_, roots_, nearby_list_;
+  std::vector<covering::Triangle> new_faces_;
+  std::vector<Index> outer_faces_, seeds_, new_seed_, roots_, nearby_list_;
   std::vector<double> new_bound_;
   std::vector<covering::Cover_node> nodes_, face_cells_;
   std::vector<Planted> planted_;

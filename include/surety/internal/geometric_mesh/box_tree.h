@@ -72,7 +72,6 @@ public:
 
   /// Whether a face has a place, be it empty.
   bool has(Index face) const { return face < place_of_.size() && place_of_[face] != none; }
-  bool is_empty(Index face) const { return boxes_[place_of_[face]] == Float_box(); }
 
   /// Gives a face a place after all others; false where there is no room.
   bool add(Index face)

@@ -58,7 +58,9 @@ public:
   void commit(const Disc& disc)
   {
     refresh(disc.old_face);
-    if (disc.kind == Disc::Kind::split) refresh(disc.face);
+    if (disc.kind != Disc::Kind::split) return;
+    misplaced_ += 2;
+    refresh(disc.face);
   }
   /// Follows M where some faces have changed.
   void refresh(const std::vector<Index>& faces)
@@ -69,9 +71,7 @@ public:
         build_tree();
         return;
       }
-      const bool is_live = mesh_.is_live_face(f);
-      misplaced_ += is_live && tree_.is_empty(f) ? 1 : 0;
-      tree_.set(f, is_live ? box_of(mesh_.vertices_of(f)) : Float_box());
+      tree_.set(f, mesh_.is_live_face(f) ? box_of(mesh_.vertices_of(f)) : Float_box());
     }
   }
   /// To be called between operations, when none can be undone: what died is left behind, and what

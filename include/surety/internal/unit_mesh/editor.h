@@ -46,10 +46,8 @@ public:
   }
 
   const Working_mesh& mesh() const { return mesh_; }
-  const Measure& measure() const { return measure_; }
   const Operations& operations() const { return operations_; }
   const Standpoint& standpoint(Index v) const { return stand_[v]; }
-  const Local_metric& metric(Index v) const { return metric_[v]; }
 
   /// To be called now and then.
   void clean_up()

@@ -88,7 +88,6 @@ public:
     }
   }
 
-  const Reference& reference() const { return reference_; }
   bool is_isotropic() const { return is_isotropic_; }
 
   /// The standpoint at a vertex of T that no curve passes.

@@ -44,7 +44,6 @@ class Measure
 {
 public:
   explicit Measure(bool is_isotropic) : is_isotropic_(is_isotropic) {}
-  bool is_isotropic() const { return is_isotropic_; }
 
   double length_at(const Vector& e, const Local_metric& at) const
   {

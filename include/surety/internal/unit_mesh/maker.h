@@ -87,7 +87,6 @@ public:
   const Operations& operations() const { return editor_.operations(); }
   bool is_cancelled() const { return remesher_.is_cancelled(); }
   unsigned passes() const { return passes_; }
-  const Metric_field& field() const { return field_; }
 
   Metric_fit fitness() const
   {
