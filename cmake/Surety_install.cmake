@@ -11,10 +11,24 @@ install(EXPORT surety NAMESPACE surety:: FILE surety-targets.cmake
   DESTINATION "${surety_package_dir}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/surety" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
   FILES_MATCHING PATTERN "*.h")
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
+install(FILES
+  "${PROJECT_SOURCE_DIR}/LICENSE"
+  "${PROJECT_SOURCE_DIR}/README.md"
+  "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
+  "${PROJECT_SOURCE_DIR}/CITATION.cff"
   DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+# As the README's links have it.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/doc/manual" "${PROJECT_SOURCE_DIR}/doc/examples"
+  DESTINATION "${CMAKE_INSTALL_DOCDIR}/doc" PATTERN "CMakeLists.txt" EXCLUDE)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/doc/figures" DESTINATION "${CMAKE_INSTALL_DOCDIR}/doc"
+  FILES_MATCHING PATTERN "*.png")
 if(SURETY_BUILD_TOOLS)
   install(TARGETS surety_tool RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  if(NOT CMAKE_CROSSCOMPILING)
+    install(FILES "${PROJECT_BINARY_DIR}/surety.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+    install(FILES "${PROJECT_BINARY_DIR}/surety.bash"
+      DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME surety)
+  endif()
 endif()
 
 configure_package_config_file(

@@ -3,6 +3,7 @@
 // The command line: finds the subcommand, runs it, and turns what it throws into a message and an
 // exit status.
 #include "commands.h"
+#include "self_description.h"
 
 #include <surety/errors.h>
 #include <surety/version.h>
@@ -33,12 +34,24 @@ int fail(Exit_status status, const std::string& message)
   return status;
 }
 
+/// A flag that prints what the parser itself knows, and ends the program.
+void add_description(
+    CLI::App& program, const char* flag, std::string (*describe)(const CLI::App&), const char* text)
+{
+  // The parser prints what this exception says, as it does for --version.
+  program.add_flag_callback(
+      flag, [&program, describe] { throw CLI::CallForVersion(describe(program), done); }, text);
+}
+
 int run(int argc, char* argv[])
 {
   Exit_status status = done;
   CLI::App program("Simplifies and remeshes triangle meshes, and proves how far the result lies "
                    "from the input.");
   program.set_version_flag("--version", "surety " SURETY_VERSION_STRING);
+  add_description(program, "--man-page", manual_page, "Print the manual page, for man");
+  add_description(
+      program, "--bash-completion", bash_completion, "Print the script of completion for bash");
   program.require_subcommand(1);
   program.footer(
       "Tolerances are lengths in mesh units (0.5) or per cent of the bounding-box diagonal "
