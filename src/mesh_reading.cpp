@@ -5,6 +5,7 @@
 #include "mesh_reading.h"
 
 #include "failure.h"
+#include "marks.h"
 #include "soup_reading.h"
 
 #include <surety/internal/validation.h>
@@ -42,7 +43,8 @@ Mesh unconnected(const Soup& soup)
 Mesh read_mesh(const std::string& file, const Reading& options)
 {
   Soup soup = read_soup(file);
-  if (options.stitch) stitch_if_unconnected(soup);
+  // What annotations refer to keeps its number.
+  if (options.stitch && !soup.annotations) stitch_if_unconnected(soup);
   require_polygons(soup, file, options.triangulate);
   require_manifold(soup, file);
   orient(soup, file);
@@ -53,6 +55,7 @@ Mesh read_mesh(const std::string& file, const Reading& options)
   if (const auto defect = surety::internal::find_defect(mesh)) {
     throw Bad_file(file, defect->problem, defect->remedy);
   }
+  if (soup.annotations) mark(mesh, *soup.annotations, file);
   return mesh;
 }
 

@@ -15,9 +15,9 @@ struct Reading {
   bool stitch = true;       ///< merge equal points if the file knows no connectivity
 };
 
-/// The mesh of an OFF, OBJ, PLY or STL file, its vertices and faces in the order of the file.
-/// \throws Bad_file if the file cannot be read or holds no valid surface; the message names the
-/// offending element and the remedy.
+/// The mesh of an OFF, OBJ, PLY, STL or Medit file, its vertices and faces in the order of the
+/// file; a Medit file's has `Marks`. \throws Bad_file if the file cannot be read or holds no valid
+/// surface; the message names the offending element and the remedy.
 Mesh read_mesh(const std::string& file, const Reading& options);
 
 /// The triangles of a file as a mesh that serves to measure distances: if they are no manifold

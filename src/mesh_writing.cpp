@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CGAL's writers for OFF, OBJ, PLY and STL.
+// CGAL's writers for OFF, OBJ, PLY and STL, and ours for the others.
 #include "mesh_writing.h"
 
 #include "colors.h"
+#include "marks.h"
+#include "medit.h"
 #include "vtp.h"
 
 #include <surety/statistics.h>
@@ -78,9 +80,11 @@ void write_stl(std::ostream& stream, const Mesh& mesh)
 
 bool is_writable(const std::string& extension)
 {
-  constexpr std::array<const char*, 5> known = {"off", "obj", "ply", "stl", "vtp"};
+  constexpr std::array<const char*, 7> known = {"off", "obj", "ply", "stl", "vtp", "mesh", "meshb"};
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
+
+bool is_medit(const std::string& extension) { return extension == "mesh" || extension == "meshb"; }
 
 bool has_float_coordinates(const Mesh& mesh)
 {
@@ -104,6 +108,8 @@ void write_mesh(
   if (extension == "off") CGAL::IO::write_OFF(stream, mesh);
   if (extension == "obj") CGAL::IO::write_OBJ(stream, mesh);
   if (extension == "stl") write_stl(stream, mesh);
+  if (extension == "mesh") write_medit_text(stream, to_soup(mesh));
+  if (extension == "meshb") write_medit_binary(stream, to_soup(mesh));
   if (extension == "vtp") {
     write_vtp(
         stream, mesh, {},

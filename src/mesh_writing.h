@@ -15,6 +15,9 @@ namespace surety::tool {
 /// Whether a mesh can be written with this extension.
 bool is_writable(const std::string& extension);
 
+/// Whether files with this extension have ridges, corners and references.
+bool is_medit(const std::string& extension);
+
 /// Whether every coordinate is a single-precision number: such meshes go to binary STL.
 bool has_float_coordinates(const Mesh& mesh);
 
@@ -25,7 +28,7 @@ struct Deviation {
 };
 
 /// Writes a mesh. PLY and VTP also carry the deviation and the quality of each face; PLY shows the
-/// former as colours, from dark (0) to bright (the tolerance).
+/// former as colours, from dark (0) to bright (the tolerance). Medit's files have what is marked.
 void write_mesh(
     std::ostream& stream, const std::string& extension, const Mesh& mesh,
     const Deviation& deviation);

@@ -6,6 +6,7 @@
 #ifndef SURETY_TOOL_PARAMETER_CHAINS_H
 #define SURETY_TOOL_PARAMETER_CHAINS_H
 
+#include "constraints.h"
 #include "mesh.h"
 #include "progress.h"
 
@@ -67,17 +68,27 @@ inline auto control_parameters(const Controls& controls, const Visitor& visitor)
 }
 
 inline auto simplify_parameters(
-    const Controls& controls, const Tolerances& tolerances, const Visitor& visitor)
+    const Controls& controls, const Tolerances& tolerances, const Constraints& constraints,
+    const Visitor& visitor)
 {
-  return control_parameters(controls, visitor).vertex_tolerance_map(tolerances);
+  return control_parameters(controls, visitor)
+      .vertex_tolerance_map(tolerances)
+      .edge_is_constrained_map(constraints.edges)
+      .vertex_is_constrained_map(constraints.vertices);
 }
 
-inline auto feature_parameters(double feature_angle, double corner_angle)
+inline auto need_parameters(double corner_angle, const Constraints& constraints = {})
 {
-  return parameters::feature_angle(feature_angle).corner_angle(corner_angle);
+  return parameters::corner_angle(corner_angle)
+      .edge_is_constrained_map(constraints.edges)
+      .vertex_is_constrained_map(constraints.vertices);
 }
 
-inline auto need_parameters(double corner_angle) { return parameters::corner_angle(corner_angle); }
+inline auto feature_parameters(
+    double feature_angle, double corner_angle, const Constraints& constraints = {})
+{
+  return need_parameters(corner_angle, constraints).feature_angle(feature_angle);
+}
 
 inline auto curvature_parameters(double noise_floor)
 {
@@ -103,7 +114,8 @@ using Concurrency = CGAL::Parallel_if_available_tag;
 
 using No_parameters = CGAL::parameters::Default_named_parameters;
 using Simplify_parameters = decltype(simplify_parameters(
-    std::declval<Controls>(), std::declval<Tolerances>(), std::declval<Visitor>()));
+    std::declval<Controls>(), std::declval<Tolerances>(), std::declval<Constraints>(),
+    std::declval<Visitor>()));
 using Hierarchy_parameters
     = decltype(control_parameters(std::declval<Controls>(), std::declval<Visitor>()));
 using Feature_parameters = decltype(feature_parameters(0, 0));

@@ -9,6 +9,7 @@
 #include "library_checks.h"
 #include "library_description.h"
 #include "library_remeshing.h"
+#include "marks.h"
 #include "mesh_reading.h"
 #include "mesh_writing.h"
 #include "output_files.h"
@@ -82,7 +83,8 @@ void Remesh::announce_outputs()
     throw Failure(
         usage,
         output + ": the format '" + extension_of(output)
-            + "' cannot be written; give a name that ends in .off, .obj, .ply, .stl or .vtp");
+            + "' cannot be written; give a name that ends in .off, .obj, .ply, .stl, .vtp, .mesh "
+              "or .meshb");
   }
   files_->announce(output);
   if (!report.empty()) files_->announce(report);
@@ -103,9 +105,12 @@ void Remesh::read()
 
 Features Remesh::find_features_of_input() const
 {
-  if (feature_angle)
-    return find_features(input_mesh_, feature_parameters(*feature_angle, corner_angle));
-  return find_features_by_need(input_mesh_, length_, need_parameters(corner_angle));
+  const Constraints constraints = constraints_of(input_mesh_);
+  Features features = feature_angle
+      ? find_features(input_mesh_, feature_parameters(*feature_angle, corner_angle, constraints))
+      : find_features_by_need(input_mesh_, length_, need_parameters(corner_angle, constraints));
+  for (const auto e : input_mesh_.edges()) features.whole.push_back(constraints.whole_edges[e]);
+  return features;
 }
 
 /// The user's sizes; without any, ones that are too large to matter.
@@ -127,13 +132,17 @@ void Remesh::remesh_input()
   controls.minimum_size = in_units(minimum_size, "--min-size");
   controls.maximum_size = in_units(maximum_size, "--max-size");
   try {
-    Features features = find_features_of_input();
+    const Features features = find_features_of_input();
     ridges_ = features.ridges, corners_ = features.corners;
     watch_.lap("features");
-    result_ = remesh(
-                  output_mesh_, std::move(features), length_,
-                  remesh_parameters(controls, sizes(), Visitor(bar)))
-                  .unit_mesh;
+    result_
+        = remesh(
+              output_mesh_, features, length_, remesh_parameters(controls, sizes(), Visitor(bar)))
+              .unit_mesh;
+    if (is_medit(extension_of(output))) {
+      mark_features(input_mesh_, features);
+      carry_marks(input_mesh_, features, output_mesh_);
+    }
   } catch (const Invalid_input& error) {
     if (error.argument() == "mesh") throw Bad_file(input, error.problem(), error.remedy());
     if (error.argument() == "size_field" || error.function() == "read_medit_sol")
@@ -317,11 +326,14 @@ void add_remesh(CLI::App& program, Exit_status&)
   const auto command = program.add_subcommand(
       "remesh", "Makes a mesh for simulation within a proven distance: sizes follow the curvature");
   const auto remesh = std::make_shared<Remesh>();
-  command->add_option("IN", remesh->input, "mesh to remesh: off, obj, ply or stl")->required();
+  command->add_option("IN", remesh->input, "mesh to remesh: off, obj, ply, stl, mesh or meshb")
+      ->required();
   command
       ->add_option(
           "-o,--output", remesh->output,
-          "new mesh: off, obj, ply, stl or vtp; ply and vtp show the deviation of each face")
+          "new mesh: off, obj, ply, stl, vtp, mesh or meshb; ply and vtp show the deviation of "
+          "each "
+          "face")
       ->required();
   command
       ->add_option(

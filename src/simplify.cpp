@@ -9,6 +9,7 @@
 #include "library_simplification.h"
 #include "interruption.h"
 #include "length.h"
+#include "marks.h"
 #include "mesh_reading.h"
 #include "mesh_writing.h"
 #include "output_files.h"
@@ -70,6 +71,7 @@ private:
   void announce_outputs();
   void require_uniform_tolerance_if_accumulated() const;
   void read();
+  void mark_output(const Constraints& constraints);
   void simplify();
   void verify();
   void require_no_new_intersection() const;
@@ -103,7 +105,8 @@ void Simplify::announce_outputs()
     throw Failure(
         usage,
         arguments_.output + ": the format '" + extension
-            + "' cannot be written; give a name that ends in .off, .obj, .ply, .stl or .vtp");
+            + "' cannot be written; give a name that ends in .off, .obj, .ply, .stl, .vtp, .mesh "
+              "or .meshb");
   }
   files_.announce(arguments_.output);
   if (!arguments_.report.empty()) files_.announce(arguments_.report);
@@ -118,7 +121,7 @@ void Simplify::announce_outputs()
     throw Failure(
         usage,
         "--certificate: a certificate refers to vertices by number, which a file of format '"
-            + extension + "' does not give back; write off, obj or ply");
+            + extension + "' does not give back; write off, obj, ply, mesh or meshb");
   }
   files_.announce(arguments_.certificate);
 }
@@ -145,10 +148,22 @@ void Simplify::read()
   lap("input_statistics");
 }
 
+/// Where the output can tell them, ridges and corners that are kept are marked beside those that
+/// the input has; marks stay with the elements that stay.
+void Simplify::mark_output(const Constraints& constraints)
+{
+  if (!is_medit(extension_of(arguments_.output))) return;
+  const auto parameters
+      = feature_parameters(controls_.feature_angle, controls_.corner_angle, constraints);
+  mark_features(output_, find_features(input_, parameters));
+}
+
 void Simplify::simplify()
 {
   Progress_bar bar(arguments_.is_quiet);
   output_ = input_;
+  const Constraints constraints = constraints_of(input_);
+  mark_output(constraints);
   const Tolerances tolerances = add_tolerances(output_, tolerance_, arguments_.tolerance_field);
   Controls& controls = controls_;
   set_ridge_length(controls, tolerance_, diagonal(input_));
@@ -157,7 +172,7 @@ void Simplify::simplify()
       = extension_of(arguments_.output) == "stl" && has_float_coordinates(input_);
   try {
     certificate_ = make_geometric_mesh<Concurrency>(
-        output_, tolerance_, simplify_parameters(controls, tolerances, Visitor(bar)));
+        output_, tolerance_, simplify_parameters(controls, tolerances, constraints, Visitor(bar)));
   } catch (const Invalid_input& error) {
     if (error.argument() == "mesh")
       throw Bad_file(arguments_.input, error.problem(), error.remedy());
@@ -299,11 +314,14 @@ void add_simplify(CLI::App& program, Exit_status&)
   const auto command = program.add_subcommand(
       "simplify", "Makes a mesh with far fewer faces within a proven distance");
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("IN", arguments->input, "mesh to simplify: off, obj, ply or stl")->required();
+  command->add_option("IN", arguments->input, "mesh to simplify: off, obj, ply, stl, mesh or meshb")
+      ->required();
   command
       ->add_option(
           "-o,--output", arguments->output,
-          "simplified mesh: off, obj, ply, stl or vtp; ply and vtp show the deviation of each face")
+          "simplified mesh: off, obj, ply, stl, vtp, mesh or meshb; ply and vtp show the deviation "
+          "of "
+          "each face")
       ->required();
   command->add_option(
       "-t,--tolerance", arguments->tolerance,

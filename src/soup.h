@@ -5,9 +5,11 @@
 #ifndef SURETY_TOOL_SOUP_H
 #define SURETY_TOOL_SOUP_H
 
+#include "annotations.h"
 #include "mesh.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct Soup {
 
   std::vector<Point> points;
   std::vector<Polygon> polygons;
+  std::optional<Annotations> annotations; ///< of formats that know any
 };
 
 /// Merges points that are equal, if no two polygons share one: then the file knows no

@@ -7,6 +7,7 @@
 #include "soup_reading.h"
 
 #include "failure.h"
+#include "medit.h"
 
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
@@ -17,6 +18,7 @@
 #include <boost/iostreams/stream.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
@@ -302,15 +304,19 @@ Soup read_stl(const std::string& file, std::string text)
 Soup parse(const std::string& file)
 {
   const std::string extension = extension_of(file);
-  if (extension != "off" && extension != "obj" && extension != "ply" && extension != "stl") {
+  constexpr std::array<const char*, 6> known = {"off", "obj", "ply", "stl", "mesh", "meshb"};
+  if (std::find(known.begin(), known.end(), extension) == known.end()) {
     throw Bad_file(
-        file, "the format '" + extension + "' cannot be read", "give an off, obj, ply or stl file");
+        file, "the format '" + extension + "' cannot be read",
+        "give an off, obj, ply, stl, mesh or meshb file");
   }
   std::string text = read_bytes(file);
   const Memory_limit limit(text.size());
   if (extension == "off") return read_off(file, text);
   if (extension == "obj") return read_obj(file, text);
   if (extension == "ply") return read_ply(file, text);
+  if (extension == "mesh") return read_medit_text(file, text);
+  if (extension == "meshb") return read_medit_binary(file, text);
   return read_stl(file, std::move(text));
 }
 

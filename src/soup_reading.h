@@ -10,8 +10,8 @@
 
 namespace surety::tool {
 
-/// The soup that an OFF, OBJ, PLY or STL file holds, complete, but not checked in any other way.
-/// \throws Bad_file if the file cannot be read to its end.
+/// The soup that an OFF, OBJ, PLY, STL or Medit file holds, complete, but not checked in any other
+/// way. \throws Bad_file if the file cannot be read to its end.
 Soup read_soup(const std::string& file);
 
 /// The extension of a file's name in lower case, without the dot.

@@ -29,6 +29,7 @@ struct Features {
   std::size_t constrained = 0; ///< other edges that the user's map constrains
   std::size_t ridges = 0;      ///< other edges where the surface turns by more than `feature_angle`
   std::size_t corners = 0;     ///< vertices that are corners
+  std::vector<bool> whole;     ///< `whole[e]`: must not be split, its ends being corners; or empty
 };
 
 namespace internal {

@@ -101,7 +101,8 @@ Geometric_support support_for_unit_mesh(
 template <class Mesh>
 void require_features_of(const Mesh& mesh, const Features& features, const char* function)
 {
-  if (features.edge.size() == num_edges(mesh) && features.corner.size() == num_vertices(mesh))
+  if (features.edge.size() == num_edges(mesh) && features.corner.size() == num_vertices(mesh)
+      && (features.whole.empty() || features.whole.size() == num_edges(mesh)))
     return;
   throw Invalid_input(
       function, "features", "they do not belong to the mesh", "find them in this mesh");
@@ -135,8 +136,8 @@ void require_metric_of(
 ///
 /// Ridges, borders and constrained edges stay curves, with vertices on the support's curves; the
 /// proof is about the surfaces, not about these. Corners and constrained vertices stay where they
-/// are. Genus, components and border loops are kept. No face that
-/// intersects another one is made; where the input has some, they are left alone.
+/// are, and so do edges of `features.whole`. Genus, components and border loops are kept. No face
+/// that intersects another one is made; where the input has some, they are left alone.
 ///
 /// The mesh is replaced: descriptors and property maps of the input are void. The property map
 /// "e:is_feature" (`bool`) tells the curves, "f:deviation" (`double`) a bound of the distance at

@@ -22,7 +22,7 @@ namespace {
 Mesh unit_sphere(unsigned subdivisions)
 {
   Mesh mesh;
-  CGAL::make_icosahedron(mesh);
+  CGAL::make_icosahedron(mesh, Kernel::Point_3(0, 0, 0), 1.);
   CGAL::Subdivision_method_3::Loop_subdivision(
       mesh, CGAL::parameters::number_of_iterations(subdivisions));
   for (const auto v : mesh.vertices()) {

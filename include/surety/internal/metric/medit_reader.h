@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Medit's .sol in text form: words between white space, comments from # to the end of a line. Every
-// word is checked, a count in the file reserves only a little memory, and what is not as it must be
-// is reported by its line.
+// Medit's .sol in text form. A count in the file reserves only a little memory.
 #ifndef SURETY_INTERNAL_METRIC_MEDIT_READER_H
 #define SURETY_INTERNAL_METRIC_MEDIT_READER_H
 
-#include <surety/errors.h>
+#include <surety/internal/metric/medit_words.h>
 #include <surety/internal/metric/tensor.h>
 #include <surety/internal/validation.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstddef>
-#include <istream>
 #include <ostream>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace surety::internal::metric {
@@ -27,12 +21,12 @@ namespace surety::internal::metric {
 constexpr std::array<std::array<int, 2>, 6> medit_order
     = {{{0, 0}, {0, 1}, {1, 1}, {0, 2}, {1, 2}, {2, 2}}};
 
-class Medit_reader
+class Medit_reader : Medit_words
 {
   enum Type { scalar = 1, vector = 2, tensor = 3 };
 
 public:
-  Medit_reader(std::istream& in, const char* function) : in_(in), function_(function) {}
+  using Medit_words::Medit_words;
 
   void read(std::vector<double>& sizes, std::vector<Tensor>& tensors)
   {
@@ -63,54 +57,6 @@ public:
   }
 
 private:
-  [[noreturn]] void fail(const std::string& problem, const std::string& remedy = "") const
-  {
-    throw Invalid_input(function_, "line " + std::to_string(line_), problem, remedy);
-  }
-
-  /// The next word; false at the end of the file.
-  bool next(std::string& word)
-  {
-    word.clear();
-    // The line ends after its last word: a message about that word must not name the next line.
-    for (int c = in_.get(); c != std::char_traits<char>::eof(); c = in_.get()) {
-      if (c == '#') {
-        while (in_.peek() != '\n' && in_.peek() != std::char_traits<char>::eof()) in_.get();
-      } else if (c > ' ') {
-        word.push_back(static_cast<char>(c));
-        if (is_end_of_word(in_.peek())) return true;
-      } else if (c == '\n') {
-        ++line_;
-      }
-    }
-    return false;
-  }
-
-  static bool is_end_of_word(int c)
-  {
-    return c == std::char_traits<char>::eof() || c <= ' ' || c == '#';
-  }
-
-  template <class Number>
-  Number number(const char* what)
-  {
-    if (!next(word_)) fail(std::string("the file ends where ") + what + " should be");
-    Number value{};
-    const char *begin = word_.data(), *end = begin + word_.size();
-    const auto [stop, error] = std::from_chars(begin + (*begin == '+' ? 1 : 0), end, value);
-    if (error != std::errc() || stop != end) fail("\"" + shown(word_) + "\" is not " + what);
-    return value;
-  }
-
-  std::size_t count() { return number<std::size_t>("a whole number"); }
-
-  double real()
-  {
-    const auto value = number<double>("a number");
-    if (!std::isfinite(value)) fail("\"" + shown(word_) + "\" is not finite");
-    return value;
-  }
-
   static std::size_t length(std::size_t type)
   {
     return type == scalar ? 1 : type == vector ? 3 : type == tensor ? 6 : 0;
@@ -146,7 +92,7 @@ private:
     for (std::size_t i = 0; i < elements; ++i) {
       if (type == scalar) {
         sizes.push_back(real());
-        if (!(sizes.back() > 0)) fail("the size " + shown(word_) + " is not positive");
+        if (!(sizes.back() > 0)) fail("the size " + shown() + " is not positive");
       } else {
         tensors.push_back(read_tensor());
       }
@@ -161,29 +107,7 @@ private:
     if (!(solver.eigenvalues()[0] > 0)) fail("the tensor is not positive definite");
     return m;
   }
-
-  /// Printable, and short enough for a message.
-  static std::string shown(const std::string& text)
-  {
-    std::string result = text.substr(0, 40);
-    for (char& c : result) {
-      if (c < ' ' || c > '~') c = '?';
-    }
-    return result;
-  }
-
-  std::istream& in_;
-  const char* function_;
-  std::string word_;
-  std::size_t line_ = 1;
 };
-
-/// The shortest decimal number that is read back to the last bit, whatever the locale.
-inline std::string shortest_text(double value)
-{
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
 
 inline void write_medit_sol(
     std::ostream& out, const std::vector<double>& sizes, const std::vector<Tensor>& tensors)

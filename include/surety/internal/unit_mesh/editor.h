@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -79,6 +80,8 @@ public:
   /// The apex of the last operation that was made.
   Index apex() const { return disc_.apex; }
 
+  /// Forbids to split the edge between two corners.
+  void keep_whole(Index a, Index b) { whole_.insert(std::minmax(a, b)); }
   /// Puts a vertex in the metric middle of an edge.
   bool split(Index e);
   /// Removes one end of an edge, where no new edge is longer than `longest`; else, both being free
@@ -98,6 +101,11 @@ private:
     Vector normal = Vector::Zero(); ///< zero on curves
     double offset = 0;              ///< of the point from the support, along the normal
   };
+
+  bool is_whole(Index e) const
+  {
+    return !whole_.empty() && whole_.count(std::minmax({mesh_.source(2 * e), mesh_.target(2 * e)}));
+  }
 
   bool touches_ghost(Index e) const
   {
@@ -292,6 +300,7 @@ private:
   std::vector<Local_metric> metric_;
   std::vector<Vector> normal_;
   std::vector<double> offset_;
+  std::set<std::pair<Index, Index>> whole_; ///< edges by their ends, the lower one first
   std::vector<Index> curve_; ///< of a feature edge of M: an edge of T of the same curve
   Operations operations_;
   Disc disc_;
@@ -352,6 +361,7 @@ inline std::optional<Editor::Apex> Editor::middle_of(Index e) const
 inline bool Editor::split(Index e)
 {
   constexpr double longest_half = .8, cap = 8;
+  if (is_whole(e)) return false;
   // A flat face with a longer edge is mended there first: else caps are split for ever.
   for (const Index h : {2 * e, 2 * e + 1}) {
     const Index f = mesh_.face(h);

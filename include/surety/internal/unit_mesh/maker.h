@@ -66,7 +66,9 @@ public:
           ground_, working_, bound_, is_feature_, !controls.allow_self_intersections,
           controls.places_freely),
       remesher_(editor_, controls.collapse_below, std::move(goes_on))
-  {}
+  {
+    keep_whole(features);
+  }
 
   void run()
   {
@@ -180,6 +182,14 @@ private:
     std::vector<bool> result(elements_.vertices.size());
     for (Index v = 0; v < result.size(); ++v) result[v] = features.corner[elements_.vertices[v]];
     return result;
+  }
+
+  void keep_whole(const Features& features)
+  {
+    if (features.whole.empty()) return;
+    for (Index e = 0; e < elements_.edges.size(); ++e)
+      if (features.whole[elements_.edges[e]])
+        editor_.keep_whole(working_.source(2 * e), working_.target(2 * e));
   }
 
   template <class Visit>
