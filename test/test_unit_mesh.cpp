@@ -114,6 +114,38 @@ TEST(Remesh, keeps_the_edges_of_a_cube)
   EXPECT_NEAR(length, 12, 1e-9);
 }
 
+/// Whether two points are the ends of an edge.
+bool has_edge(const Mesh& mesh, const Point& p, const Point& q)
+{
+  for (const auto h : mesh.halfedges())
+    if (mesh.point(mesh.source(h)) == p && mesh.point(mesh.target(h)) == q) return true;
+  return false;
+}
+
+TEST(Remesh, does_not_split_edges_that_are_to_stay_whole)
+{
+  const Mesh cube = unit_cube();
+  const Point p(0, 0, 0), q(1, 0, 0);
+  for (const bool stays_whole : {false, true}) {
+    Features features = find_features(cube, parameters::feature_angle(40));
+    if (stays_whole) {
+      for (const auto e : cube.edges()) {
+        const Point a = cube.point(cube.vertex(e, 0)), b = cube.point(cube.vertex(e, 1));
+        features.whole.push_back((a == p && b == q) || (a == q && b == p));
+      }
+    }
+    Mesh result = cube;
+    const Remeshing answer = remesh(result, features, .01, parameters::maximum_size(.2));
+    expect_promises(cube, result, .01, answer.unit_mesh);
+    EXPECT_EQ(has_edge(result, p, q), stays_whole);
+    EXPECT_FALSE(has_edge(result, Point(0, 1, 1), Point(1, 1, 1)));
+  }
+  Features wrong = find_features(cube);
+  wrong.whole.assign(3, true);
+  Mesh result = cube;
+  EXPECT_THROW(remesh(result, wrong, .01), Invalid_input);
+}
+
 TEST(Remesh, leaves_a_cube_of_twelve_faces_within_the_tolerance)
 {
   const Mesh cube = unit_cube();
