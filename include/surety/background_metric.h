@@ -24,8 +24,8 @@ namespace surety {
 /// A point of a mesh: a face, and weights of its corners that sum up to 1. The first corner is the
 /// source of `halfedge(face, mesh)`, the others follow round the face.
 struct Surface_location {
-  std::uint32_t face = 0;
-  Eigen::Vector3d weights = Eigen::Vector3d(1, 0, 0);
+  std::uint32_t face = 0;                             ///< of the mesh
+  Eigen::Vector3d weights = Eigen::Vector3d(1, 0, 0); ///< of its corners
 };
 
 /// \brief A metric on a mesh that stays as it is while another mesh of the surface changes.
@@ -38,13 +38,16 @@ struct Surface_location {
 class Background_metric
 {
 public:
-  using Vector = Eigen::Vector3d;
-  using Tensor = Eigen::Matrix3d;
+  using Vector = Eigen::Vector3d; ///< a point or direction
+  using Tensor = Eigen::Matrix3d; ///< symmetric, positive definite
 
+  /// \brief Reads a metric off the mesh that it belongs to.
+  /// \param mesh a triangle mesh
   /// \param metric of `mesh`
+  /// \param np reads `vertex_point_map`
   /// \throws Invalid_input when the metric does not belong to the mesh.
   ///
-  /// Reads `vertex_point_map`. O(n log n).
+  /// O(n log n).
   template <class Mesh, class NamedParameters = CGAL::parameters::Default_named_parameters>
   Background_metric(
       const Mesh& mesh, const Metric_field& metric,
@@ -78,6 +81,7 @@ public:
     }
   }
 
+  /// That of the metric.
   Metric_kind kind() const { return kind_; }
 
   /// The size at a point; of a tensor, the least one of all directions.
@@ -89,6 +93,7 @@ public:
     return sum;
   }
 
+  /// The tensor at a point.
   Tensor tensor(const Surface_location& at) const
   {
     if (kind_ == Metric_kind::isotropic) return internal::metric::isotropic_tensor(size(at));

@@ -35,6 +35,7 @@ namespace surety {
 class Certificate
 {
 public:
+  /// For the functions that make certificates.
   Certificate(
       double tolerance, double bound, std::optional<Correspondence> correspondence,
       Operations operations = {}, bool cancelled = false)

@@ -26,27 +26,30 @@ namespace surety {
 /// about a vertex of M, to which no vertex of T goes, a point inside the triangle does: an *inner
 /// item*, from which the cells about it fan out.
 struct Correspondence {
+  /// What a vertex of T goes to: a vertex of M, a point of an edge, or of a face.
   enum class Kind : std::uint8_t { vertex, edge, face };
 
   /// Where a vertex of T goes.
   struct Image {
-    Kind kind = Kind::vertex;
-    std::uint32_t a = 0; ///< the vertex, the smaller end of the edge, or the face
-    std::uint32_t b = 0; ///< the larger end of the edge, otherwise 0
+    Kind kind = Kind::vertex; ///< what the indices count
+    std::uint32_t a = 0;      ///< the vertex, the smaller end of the edge, or the face
+    std::uint32_t b = 0;      ///< the larger end of the edge, otherwise 0
   };
 
   /// Where an edge of T crosses an edge of M.
   struct Crossing {
-    std::uint32_t a = 0, b = 0; ///< the ends of the edge of M, a < b
-    double lambda = 0;          ///< in [0, 1], never decreasing from s to t
+    std::uint32_t a = 0; ///< the smaller end of the edge of M
+    std::uint32_t b = 0; ///< the larger one
+    double lambda = 0;   ///< in [0, 1], never decreasing from s to t
   };
 
   /// Which point inside a face of T goes to a vertex of M: (1 - lambda - mu) x_a + lambda x_b +
   /// mu x_c, where a < b < c are the vertices of the face.
   struct Inner {
-    std::uint32_t face = 0;    ///< of T
-    std::uint32_t vertex = 0;  ///< of M
-    double lambda = 0, mu = 0; ///< not negative, with a sum of at most 1
+    std::uint32_t face = 0;   ///< of T
+    std::uint32_t vertex = 0; ///< of M
+    double lambda = 0;        ///< not negative
+    double mu = 0;            ///< not negative; lambda + mu is at most 1
   };
 
   std::vector<Image> images;                        ///< one a vertex of T

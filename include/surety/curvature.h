@@ -37,17 +37,17 @@ namespace surety {
 /// a sphere whose faces are oriented outwards.
 template <class Kernel>
 struct Principal_curvatures_and_directions {
-  using FT = typename Kernel::FT;
-  using Vector_3 = typename Kernel::Vector_3;
+  using FT = typename Kernel::FT;             ///< number type
+  using Vector_3 = typename Kernel::Vector_3; ///< direction
 
   FT min_curvature = 0;                       ///< the smaller one, with its sign
   FT max_curvature = 0;                       ///< the larger one, with its sign
   Vector_3 min_direction = Vector_3(0, 0, 0); ///< of unit length
   Vector_3 max_direction = Vector_3(0, 0, 0); ///< of unit length
   Vector_3 normal = Vector_3(0, 0, 0);        ///< of unit length
-  FT mean_curvature = 0;
-  FT gaussian_curvature = 0;
-  Point_type type = Point_type::planar;
+  FT mean_curvature = 0;                      ///< half the sum of both
+  FT gaussian_curvature = 0;                  ///< their product
+  Point_type type = Point_type::planar;       ///< what the surface is like there
 };
 
 namespace internal {

@@ -38,20 +38,22 @@ enum class Curvature_fit {
 /// towards its normal: a sphere whose faces are oriented outwards has curvature -1/radius. The
 /// directions and the normal are of unit length and orthogonal to each other.
 struct Side_curvature {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  Eigen::Vector3d min_direction = Eigen::Vector3d::Zero();
-  Eigen::Vector3d max_direction = Eigen::Vector3d::Zero();
-  double min_curvature = 0;        ///< the smaller one, with its sign
-  double max_curvature = 0;        ///< the larger one, with its sign
-  double min_derivative = 0;       ///< of min_curvature along min_direction
-  double max_derivative = 0;       ///< of max_curvature along max_direction
-  double min_cross_derivative = 0; ///< of min_curvature along max_direction
-  double max_cross_derivative = 0; ///< of max_curvature along min_direction
-  double standard_deviation = 0;   ///< of the curvatures, as the residuals of the fit tell it
-  Point_type type = Point_type::planar;
-  Curvature_fit fit = Curvature_fit::none;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();        ///< of unit length
+  Eigen::Vector3d min_direction = Eigen::Vector3d::Zero(); ///< that of `min_curvature`
+  Eigen::Vector3d max_direction = Eigen::Vector3d::Zero(); ///< that of `max_curvature`
+  double min_curvature = 0;                                ///< the smaller one, with its sign
+  double max_curvature = 0;                                ///< the larger one, with its sign
+  double min_derivative = 0;                               ///< of min_curvature along min_direction
+  double max_derivative = 0;                               ///< of max_curvature along max_direction
+  double min_cross_derivative = 0;                         ///< of min_curvature along max_direction
+  double max_cross_derivative = 0;                         ///< of max_curvature along min_direction
+  double standard_deviation = 0;        ///< of the curvatures, as the residuals of the fit tell it
+  Point_type type = Point_type::planar; ///< what the surface is like there
+  Curvature_fit fit = Curvature_fit::none; ///< how it was found
 
+  /// Half the sum of the principal curvatures.
   double mean_curvature() const { return (min_curvature + max_curvature) / 2; }
+  /// Their product.
   double gaussian_curvature() const { return min_curvature * max_curvature; }
 };
 
@@ -63,7 +65,7 @@ struct Curve_curvature {
 
 /// The curvature of a surface, one entry a side and one a vertex.
 struct Curvature_field {
-  Sides sides;
+  Sides sides;                        ///< that the values belong to
   std::vector<Side_curvature> side;   ///< by side
   std::vector<Curve_curvature> curve; ///< by vertex
   std::size_t fallbacks = 0;          ///< sides with a poorer fit than the method asks for

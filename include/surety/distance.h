@@ -34,9 +34,9 @@ struct Witness {
 
 /// Certified bounds of the largest distance from a point of one mesh to the other mesh.
 struct Distance_interval {
-  double lower; ///< attained by the witness
-  double upper; ///< infinite where it was not searched for
-  Witness witness;
+  double lower;    ///< attained by the witness
+  double upper;    ///< infinite where it was not searched for
+  Witness witness; ///< the point that is this far from the other mesh
 };
 
 /// \brief What `certify_distance()` found out: the bound holds, or is refuted, or neither.
@@ -46,6 +46,7 @@ struct Distance_interval {
 class Distance_certificate
 {
 public:
+  /// For the functions that make certificates.
   Distance_certificate(
       double bound, const Distance_interval& forward, const Distance_interval& backward)
     : bound_(bound), forward_(forward), backward_(backward)
@@ -91,7 +92,9 @@ struct Hausdorff_distance {
   Distance_interval forward;  ///< from the points of the first mesh to the second mesh
   Distance_interval backward; ///< from the points of the second mesh to the first mesh
 
+  /// The distance is at least this, in mesh units.
   double lower() const { return (std::max)(forward.lower, backward.lower); }
+  /// It is at most this.
   double upper() const { return (std::max)(forward.upper, backward.upper); }
 
   /// Whether both intervals are as narrow as was asked for. If not, they hold nevertheless.

@@ -20,6 +20,7 @@ namespace surety {
 class Invalid_input : public std::invalid_argument
 {
 public:
+  /// The parts of the sentence; see the functions of the same names.
   Invalid_input(
       std::string function, std::string argument, std::string problem, std::string remedy = "")
     : std::invalid_argument(sentence(function, argument, problem, remedy)),

@@ -181,12 +181,14 @@ Features find_features(
 /// a border one, at a corner as many as curves meet there. What is smooth on a side only (normal,
 /// curvature, metric) is stored once a side.
 struct Sides {
+  /// The side of a halfedge without a face.
   static constexpr std::uint32_t no_side = 0xffffffff;
 
   std::vector<std::uint32_t> of_corner; ///< by halfedge h: the side at its target that has face(h)
   std::vector<std::uint32_t> vertex;    ///< by side: the vertex that it belongs to
   std::vector<std::uint32_t> first;     ///< by vertex: its first side; the others follow
 
+  /// The number of sides.
   std::size_t size() const { return vertex.size(); }
 };
 

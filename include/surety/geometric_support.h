@@ -35,7 +35,7 @@ namespace surety {
 
 /// A point of a curve of features.
 struct Support_curve_point {
-  Eigen::Vector3d point;
+  Eigen::Vector3d point;   ///< on the curve
   Eigen::Vector3d tangent; ///< of unit length, in the direction of the edge
 };
 
@@ -66,12 +66,16 @@ public:
     : data_(std::make_shared<const Data>(std::move(surface), shape, std::move(report)))
   {}
 
+  /// How much of the surface is smooth, and what was refused.
   const Support_report& report() const { return data_->report; }
+  /// Of one patch.
   const Patch_state& patch_state(std::uint32_t face) const { return data_->states[face]; }
+  /// Of the mesh; each has a patch.
   std::size_t number_of_faces() const { return data_->surface.mesh().faces(); }
 
   /// \name At a location
   /// @{
+  /// The point of the surface.
   Eigen::Vector3d position(const Support_location& at) const
   {
     return data_->surface.point(at.face, at.barycentric);
@@ -120,6 +124,7 @@ public:
   {
     return internal::fast_closest(data_->surface, data_->tree, p, filter(facing));
   }
+  /// By branch and bound, on the patches of those faces that look the given way.
   Support_point guaranteed_closest_point(const Eigen::Vector3d& p, const Facing& facing) const
   {
     return internal::guaranteed_closest(data_->surface, data_->tree, p, filter(facing));
@@ -138,6 +143,7 @@ public:
   {
     return point_of_curve(edge, parameter);
   }
+  /// Whether an edge is a ridge or border.
   bool is_feature(std::uint32_t edge) const { return data_->surface.mesh().is_feature[edge]; }
   /// @}
 

@@ -22,7 +22,7 @@ namespace surety {
 /// distance to the input at each face.
 template <class Mesh>
 struct Hierarchy_level {
-  Mesh mesh;
+  Mesh mesh; ///< with the map "f:deviation"
   /// Against the input, not against the level before. Its operations are those performed from the
   /// input to this level; refusals are counted for the whole hierarchy only.
   Certificate certificate;
@@ -31,7 +31,7 @@ struct Hierarchy_level {
 /// A mesh on the way from the input to the coarsest level.
 template <class Mesh>
 struct Extraction {
-  Mesh mesh;
+  Mesh mesh;                  ///< a valid one
   double tolerance = 0;       ///< the two-sided distance to the input is at most this; a length
   std::size_t operations = 0; ///< that lead to it, from the input
 };
@@ -42,6 +42,7 @@ template <class Mesh>
 class Hierarchy
 {
 public:
+  /// For the functions that make hierarchies.
   Hierarchy(
       Mesh input, std::vector<Hierarchy_level<Mesh>> levels, Hierarchy_record record,
       const Operations& operations)

@@ -18,6 +18,7 @@ namespace surety {
 /// position in a file, and keep that name as long as they live. Twelve bytes an operation, and 24
 /// more where a vertex moves.
 struct Hierarchy_record {
+  /// What an operation does to its source and target.
   enum class Kind : std::uint8_t {
     collapse,  ///< the source goes to the target and is gone
     flip,      ///< the edge becomes the other diagonal of its two faces
@@ -25,23 +26,27 @@ struct Hierarchy_record {
     relocation ///< the source moves to a point; the target is the source
   };
 
+  /// One operation, by the names of the vertices.
   struct Operation {
-    std::uint32_t source = 0, target = 0;
-    Kind kind = Kind::collapse;
+    std::uint32_t source = 0;   ///< the vertex that goes or moves
+    std::uint32_t target = 0;   ///< the other end of the edge
+    Kind kind = Kind::collapse; ///< what becomes of them
     /// Whether the mesh is within the tolerance afterwards. It need not be inside a transaction,
     /// which exceeds the tolerance and comes back.
     bool is_boundary = true;
   };
 
+  /// A level, and where it is among the operations.
   struct Level {
-    double tolerance = 0, bound = 0; ///< lengths
-    std::uint32_t operations = 0;    ///< how many lead to it, from the input
+    double tolerance = 0;         ///< the distance that was asked for, a length
+    double bound = 0;             ///< the distance that is proven, a length
+    std::uint32_t operations = 0; ///< how many lead to it, from the input
   };
 
-  std::uint64_t fingerprint = 0; ///< of the input's points and faces
-  std::uint32_t vertices = 0;    ///< of the input
-  std::vector<Level> levels;
-  std::vector<Operation> operations;
+  std::uint64_t fingerprint = 0;             ///< of the input's points and faces
+  std::uint32_t vertices = 0;                ///< of the input
+  std::vector<Level> levels;                 ///< from fine to coarse
+  std::vector<Operation> operations;         ///< in their order
   std::vector<std::array<double, 3>> points; ///< of placements and relocations, in their order
 };
 

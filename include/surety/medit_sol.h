@@ -25,7 +25,9 @@ struct Medit_solution {
   std::vector<double> sizes;            ///< lengths in mesh units
   std::vector<Eigen::Matrix3d> tensors; ///< symmetric, positive definite
 
+  /// Whether it holds tensors.
   bool is_anisotropic() const { return !tensors.empty(); }
+  /// Of the mesh that it belongs to.
   std::size_t number_of_vertices() const { return sizes.size() + tensors.size(); }
 };
 

@@ -49,15 +49,19 @@ inline void require_metric(
 class Metric_field
 {
 public:
-  using Vector = Eigen::Vector3d;
-  using Tensor = Eigen::Matrix3d;
-  using Side = std::uint32_t;
+  using Vector = Eigen::Vector3d; ///< a direction
+  using Tensor = Eigen::Matrix3d; ///< symmetric, positive definite
+  using Side = std::uint32_t;     ///< index of a side, see `Sides`
 
+  /// A metric without sides.
   Metric_field() = default;
 
   /// \brief The same size everywhere.
+  /// \param kind whether it will depend on the direction
+  /// \param sides of the mesh
   /// \param normals by side
   /// \param tangents by vertex: of the feature curve that passes there, zero where none does
+  /// \param size a length in mesh units, positive
   Metric_field(
       Metric_kind kind, Sides sides, std::vector<Vector> normals, std::vector<Vector> tangents,
       double size)
@@ -74,8 +78,11 @@ public:
     }
   }
 
+  /// Whether sizes depend on the direction.
   Metric_kind kind() const { return kind_; }
+  /// Those of the mesh.
   const Sides& sides() const { return sides_; }
+  /// How many there are.
   std::size_t number_of_sides() const { return sides_.size(); }
   /// Of the surface, by side.
   const Vector& normal(Side s) const { return normals_[s]; }
@@ -88,10 +95,12 @@ public:
 
   /// \name By side
   /// @{
+  /// The size; of a tensor, the least one of all directions.
   double size(Side s) const
   {
     return kind_ == Metric_kind::isotropic ? sizes_[s] : internal::metric::least_size(tensors_[s]);
   }
+  /// The tensor; a multiple of the identity where the metric is isotropic.
   Tensor tensor(Side s) const
   {
     return kind_ == Metric_kind::isotropic ? internal::metric::isotropic_tensor(sizes_[s])
@@ -123,16 +132,19 @@ public:
 
   /// \name By corner of a face: at the target of a halfedge, on the side of its face
   /// @{
+  /// The side that the corner belongs to.
   template <class Halfedge>
   Side side_of_corner(Halfedge h) const
   {
     return sides_.of_corner[h];
   }
+  /// The size there.
   template <class Halfedge>
   double size_at_corner(Halfedge h) const
   {
     return size(side_of_corner(h));
   }
+  /// The tensor there.
   template <class Halfedge>
   Tensor tensor_at_corner(Halfedge h) const
   {
@@ -143,6 +155,7 @@ public:
   /// \name By vertex: what satisfies all its sides
   /// \pre The vertex is not isolated.
   /// @{
+  /// The least size of its sides.
   template <class Vertex>
   double size_at_vertex(Vertex v) const
   {
@@ -152,6 +165,7 @@ public:
     }
     return least;
   }
+  /// The intersection of the tensors of its sides.
   template <class Vertex>
   Tensor tensor_at_vertex(Vertex v) const
   {

@@ -23,6 +23,7 @@ struct Metric_fit {
   /// Upper limits of the bins of the histograms; the last bin has what is above them all.
   static constexpr std::array<double, 8> length_limits{
       .3, .6, .7071067811865476, .9, 1.3, 1.4142135623730951, 2, 5};
+  /// Those of the qualities.
   static constexpr std::array<double, 7> quality_limits{1.1, 1.2, 1.5, 2, 3, 5, 10};
   std::array<std::size_t, 9> length_histogram{};  ///< number of edges, by metric length
   std::array<std::size_t, 8> quality_histogram{}; ///< number of faces, by quality

@@ -34,12 +34,13 @@ inline const char* to_string(Verdict verdict)
 
 /// Operations performed, and refusals by reason.
 struct Operations {
-  std::size_t collapses = 0;
-  std::size_t flips = 0;
-  std::size_t relocations = 0; ///< vertices moved
-  std::size_t splits = 0;      ///< of edges, in unit meshes
-  std::array<std::size_t, number_of_verdicts> refused{};
+  std::size_t collapses = 0;                             ///< of edges into one of their ends
+  std::size_t flips = 0;                                 ///< of edges into the other diagonal
+  std::size_t relocations = 0;                           ///< vertices moved
+  std::size_t splits = 0;                                ///< of edges, in unit meshes
+  std::array<std::size_t, number_of_verdicts> refused{}; ///< by `Verdict`
 
+  /// Adds those of another run.
   Operations& operator+=(const Operations& o)
   {
     collapses += o.collapses;
@@ -50,6 +51,7 @@ struct Operations {
     return *this;
   }
 
+  /// Counts a refusal.
   void refuse(Verdict verdict) { ++refused[static_cast<std::size_t>(verdict)]; }
 };
 

@@ -203,11 +203,15 @@ class Named_parameters : public CGAL::Named_function_parameters<Value, Tag, Base
   }
 
 public:
+  /// A chain of one parameter.
   explicit Named_parameters(const Value& value) : Chain(value) {}
+  /// A chain that goes on with one more.
   Named_parameters(const Value& value, const Base& base) : Chain(value, base) {}
 
   /// \name Parameters of this library; see the functions of `surety::parameters`
   /// @{
+
+  /// Adds the parameter of this name.
   auto feature_angle(double degrees) const { return then<internal::feature_angle_t>(degrees); }
   auto corner_angle(double degrees) const { return then<internal::corner_angle_t>(degrees); }
   auto deviation_bound(Deviation_bound b) const { return then<internal::deviation_bound_t>(b); }
@@ -293,6 +297,8 @@ public:
 
   /// \name CGAL's parameters that this library reads, with their meaning in CGAL
   /// @{
+
+  /// Adds CGAL's parameter of this name.
   template <class Map>
   auto vertex_point_map(const Map& map) const
   {

@@ -22,11 +22,11 @@ namespace surety {
 
 /// What each stage of `remesh()` made. All but the last refer to the original.
 struct Remeshing {
-  Features features;
-  Curvature_field curvature;
-  Metric_field metric; ///< as asked for, graded
-  Geometric_support support;
-  Unit_mesh_result unit_mesh;
+  Features features;          ///< ridges, borders and corners
+  Curvature_field curvature;  ///< by side
+  Metric_field metric;        ///< as asked for, graded
+  Geometric_support support;  ///< the smooth surface
+  Unit_mesh_result unit_mesh; ///< the certificate, and how well the metric is met
 };
 
 namespace internal {

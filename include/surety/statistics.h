@@ -26,9 +26,9 @@ namespace surety {
 
 /// What `mesh_statistics()` finds. Lengths are in mesh units.
 struct Mesh_statistics {
-  std::size_t vertices = 0;
-  std::size_t edges = 0;
-  std::size_t faces = 0;
+  std::size_t vertices = 0;     ///< of the mesh
+  std::size_t edges = 0;        ///< of the mesh
+  std::size_t faces = 0;        ///< of the mesh
   std::size_t components = 0;   ///< pieces that hang together by edges
   std::size_t border_edges = 0; ///< edges with one face
   std::size_t border_loops = 0; ///< closed curves that they form

@@ -20,8 +20,8 @@ namespace surety {
 
 /// Locations by point, and triangles that look the way of their faces.
 struct Support_tessellation {
-  std::vector<Support_location> location;
-  std::vector<std::array<std::size_t, 3>> triangle;
+  std::vector<Support_location> location;           ///< of each point
+  std::vector<std::array<std::size_t, 3>> triangle; ///< indices of points
 };
 
 namespace internal {
