@@ -4,10 +4,14 @@
 # examples that are compiled and run, every flag is in the manual, every link leads somewhere.
 import os
 import re
+import shlex
+import shutil
 import subprocess
+import tempfile
 import unittest
 from pathlib import Path
 
+DATA = os.environ.get("SURETY_DATA_DIR", "")
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "doc/manual").glob("*.md"))]
 QUOTE = re.compile(r"<!-- (doc/examples/\S+) -->\n```cpp\n(.*?)```", re.DOTALL)
@@ -35,6 +39,20 @@ class Documentation(unittest.TestCase):
                 with self.subTest(page=page.name, example=name):
                     self.assertEqual(text, without_header((ROOT / name).read_text()))
         self.assertGreater(quotes, 0)
+
+    @unittest.skipUnless(os.path.exists(f"{DATA}/fandisk.off"), "the model is not there")
+    def test_the_commands_of_the_tutorial_work_as_printed(self):
+        text = (ROOT / "doc/manual/tutorial.md").read_text()
+        commands = re.findall(r"^\$ surety (.*)$", text, re.MULTILINE)
+        self.assertGreater(len(commands), 8)
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copy(f"{DATA}/fandisk.off", folder)
+            for command in commands:
+                with self.subTest(command=command):
+                    done = subprocess.run(
+                        [os.environ.get("SURETY", "surety"), *shlex.split(command)], cwd=folder,
+                        capture_output=True, text=True)
+                    self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_links_lead_somewhere(self):
         for page in PAGES:
