@@ -62,6 +62,16 @@ class Documentation(unittest.TestCase):
                     with self.subTest(page=page.name, link=link):
                         self.assertTrue((page.parent / link).exists())
 
+    def test_every_public_header_and_page_is_in_the_reference(self):
+        # What Doxygen does not know, it does not miss.
+        reference = (ROOT / "doc/reference.dox").read_text()
+        for header in (ROOT / "include/surety").glob("*.h"):
+            self.assertIn(f"\\file surety/{header.name}\n", reference)
+        index = (ROOT / "doc/manual/index.md").read_text()
+        for page in (ROOT / "doc/manual").glob("*.md"):
+            if page.name != "index.md":
+                self.assertIn(f"({page.name})", index)
+
     def test_the_manual_and_the_help_agree_about_flags(self):
         surety = os.environ.get("SURETY", "surety")
         manual = (ROOT / "doc/manual/command_line.md").read_text()

@@ -21,7 +21,7 @@ enum class Verdict {
   self_intersection ///< a new face meets a face that it does not touch
 };
 
-constexpr std::size_t number_of_verdicts = 8;
+constexpr std::size_t number_of_verdicts = 8; ///< of `Verdict`
 
 /// The name of a verdict as reports print it.
 inline const char* to_string(Verdict verdict)
