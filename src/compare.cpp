@@ -148,7 +148,7 @@ void add_compare(CLI::App& program, Exit_status& status)
   command->add_option("--report", compare->report, "write all figures to this JSON file");
   command->add_flag("--quiet", compare->is_quiet, "print nothing but errors");
   command->footer("With a tolerance the exit status is 0 if it is proven, and 4 if not.\n"
-                  "Example: surety compare part.off simplified.off -t 0.1%");
+                  "Example: surety compare part.stl part.off -t 0.1%");
   command->callback([compare, &status] { status = compare->run(); });
 }
 

@@ -69,8 +69,10 @@ class Curve_finder
 public:
   Curve_finder(const Mesh& mesh, const Features& features)
   {
+    std::vector<Edge> edges;
     for (const Edge e : mesh.edges())
-      if (features.edge[e]) tree_.insert(Primitive(e, mesh));
+      if (features.edge[e]) edges.push_back(e);
+    tree_.insert(edges.begin(), edges.end(), mesh);
     if (!tree_.empty()) tree_.build();
   }
 

@@ -89,7 +89,7 @@ void add_verify(CLI::App& program, Exit_status& status)
   command->add_option("--report", verify->report, "write the answer to this JSON file");
   command->add_flag("--quiet", verify->is_quiet, "print nothing but errors");
   command->footer("The exit status is 0 if the certificate holds, and 4 if it does not.\n"
-                  "Example: surety verify part.off simplified.off simplified.cert");
+                  "Example: surety verify part.stl part.off part.cert");
   command->callback([verify, &status] { status = verify->run(); });
 }
 

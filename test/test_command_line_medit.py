@@ -59,8 +59,9 @@ def cube(size=8):
     middle = names[(size // 2, size // 2, 0)]
     beside = names[(size // 2 + 1, size // 2, 0)]
     edges.append((middle, beside, 99))
-    inner = next(i for i, t in enumerate(triangles) if t[3] == 6 and all(
-        x not in (0, 1) for v in t[:3] for x in points[v - 1][:2]))
+    inner = max(range(len(triangles)), key=lambda i: sum(
+        triangles[i][3] == 6 and x not in (0, 1)
+        for v in triangles[i][:3] for x in points[v - 1][:2]))
     return {"Vertices": vertices, "Triangles": triangles, "Edges": edges, "Ridges": ridges,
             "Corners": [(v + 1,) for v, p in enumerate(points) if set(p) <= {0, 1}],
             "RequiredVertices": [(names[(0, 3, 3)],)],
@@ -246,16 +247,16 @@ class Medit(unittest.TestCase):
         self.refused(text_of(mesh), "edge 1, from vertex 1 to vertex 2, is the side of no triangle")
 
     def test_a_binary_file_that_is_wrong_is_refused(self):
-        mesh = cube(2)
+        mesh = cube(4)
         whole = bytes_of(mesh)
-        for length in range(1, len(whole) - 8, 41):
+        for length in range(1, len(whole) - 8, 97):
             self.refused(whole[:length], "bad.meshb", "bad.meshb")
         mesh["Triangles"][4] = (1, 2, 1000, 0)
         self.refused(bytes_of(mesh), "Triangles, entry 5: vertex 1000", "bad.meshb")
-        mesh = cube(2)
+        mesh = cube(4)
         mesh["Vertices"][2] = (0., float("inf"), 0., 0)
         self.refused(bytes_of(mesh), "Vertices, entry 3: .*not finite", "bad.meshb")
-        mesh = cube(2)
+        mesh = cube(4)
         mesh["Quadrilaterals"] = [(1, 2, 3, 4, 0)]
         self.refused(bytes_of(mesh), "1 Quadrilaterals", "bad.meshb")
         self.refused(whole[:4] + b"\7" + whole[5:], "version is 7", "bad.meshb")
