@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Medit's meshes, read and written without the program's code: a dictionary from keywords to lists of
-# entries, with indices from 1, and the reference last where an entry has one.
+# Medit's meshes, read and written without the program's code: a dictionary from keywords to lists
+# of entries, with indices from 1, and the reference last where an entry has one.
 import struct
 
 # Code in binary files, number of indices, whether a reference follows.
@@ -13,7 +13,8 @@ VERTICES, END = 4, 54
 
 
 def text_of(mesh, version=2):
-    lines = [f"MeshVersionFormatted {version}", "Dimension 3", "Vertices", str(len(mesh["Vertices"]))]
+    lines = [f"MeshVersionFormatted {version}", "Dimension 3", "Vertices"]
+    lines += [str(len(mesh["Vertices"]))]
     lines += ["{!r} {!r} {!r} {}".format(*vertex) for vertex in mesh["Vertices"]]
     for keyword in LISTS:
         if mesh.get(keyword):

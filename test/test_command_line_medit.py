@@ -143,8 +143,8 @@ class Medit(unittest.TestCase):
         for placement in ("on-surface", "free"):
             for effort in ("fast", "default"):
                 with self.subTest(placement=placement, effort=effort):
-                    self.surety("simplify", "in.mesh", "-o", "out.mesh", "-t", "0.01", "--placement",
-                                placement, "--effort", effort)
+                    self.surety("simplify", "in.mesh", "-o", "out.mesh", "-t", "0.01",
+                                "--placement", placement, "--effort", effort)
                     new = from_text((self.folder / "out.mesh").read_text())
                     self.assertLess(len(new["Triangles"]), 150)
                     self.check_cube(cube(), new)
@@ -154,8 +154,8 @@ class Medit(unittest.TestCase):
         (self.folder / "in.meshb").write_bytes(bytes_of(cube(), 3))
         for size in (".4", ".06"):
             with self.subTest(size=size):
-                self.surety("remesh", "in.meshb", "-o", "out.meshb", "-t", "0.01", "--max-size", size,
-                            "--min-size", ".02")
+                self.surety("remesh", "in.meshb", "-o", "out.meshb", "-t", "0.01",
+                            "--max-size", size, "--min-size", ".02")
                 new = from_bytes((self.folder / "out.meshb").read_bytes())
                 self.check_cube(cube(), new)
         self.assertGreater(len(new["Triangles"]), 1500)
@@ -213,12 +213,14 @@ class Medit(unittest.TestCase):
         (self.folder / "in.mesh").write_text(text_of(ball()))
         for name in ("out.mesh", "out.meshb"):
             with self.subTest(name=name):
-                self.surety("simplify", "in.mesh", "-o", name, "-t", "2%", "--certificate", "c.cert")
+                self.surety("simplify", "in.mesh", "-o", name, "-t", "2%",
+                            "--certificate", "c.cert")
                 self.surety("verify", "in.mesh", name, "c.cert")
 
     def test_lists_that_are_of_no_use_are_skipped(self):
-        text = text_of(ball()).replace("Triangles", "Normals\n2\n0 0 1.5e0\n0 1 0\nNormalAtVertices\n"
-                                       "1\n1 1\nTriangles # of the surface", 1)
+        text = text_of(ball()).replace(
+            "Triangles", "Normals\n2\n0 0 1.5e0\n0 1 0\nNormalAtVertices\n1\n1 1\n"
+            "Triangles # of the surface", 1)
         (self.folder / "in.mesh").write_text(text)
         self.surety("info", "in.mesh")
 
@@ -231,13 +233,16 @@ class Medit(unittest.TestCase):
                 (head + "Triangles 1\n1 2 3 0.5\nEnd\n", 'line 8: "0.5" is not a reference'),
                 (head + "Triangles 1\n1 2 3 0\n", "line 9: the file ends without the word End"),
                 (head + "Triangles 2\n1 2 3 0\nEnd\n", 'line 9: "End" is not a whole number'),
-                (head + "Triangles 1\n1 2 3 0\nRidges 1\n1\nEnd\n", "line 10: edge 1 does not exist"),
-                (head + "Triangles 1\n1 2 3 0\nTriangles 1\n1 2 3 0\nEnd\n", "line 9: .*more than one"),
+                (head + "Triangles 1\n1 2 3 0\nRidges 1\n1\nEnd\n",
+                 "line 10: edge 1 does not exist"),
+                (head + "Triangles 1\n1 2 3 0\nTriangles 1\n1 2 3 0\nEnd\n",
+                 "line 9: .*more than one"),
                 (head + "Triangles 1\n1 2 3 0\n17\nEnd\n", 'line 9: "17" is where a keyword'),
                 (head.replace("1 0 0 0", "1 nan 0 0") + "End\n", 'line 5: "nan" is not finite'),
                 (head.replace("Vertices 3", "Vertices 3000000000") + "End\n", "line 7"),
                 (head.replace("Dimension 3", "Dimension 2"), "line 2: the dimension is 2, not 3"),
-                (head + "Quadrilaterals 1\n1 2 3 3 0\nEnd\n", "1 Quadrilaterals.*into two triangles"),
+                (head + "Quadrilaterals 1\n1 2 3 3 0\nEnd\n",
+                 "1 Quadrilaterals.*into two triangles"),
                 (head + "Tetrahedra 1\n1 2 3 3 0\nEnd\n", "1 Tetrahedra.*of the surface only"),
                 (head + "End\n", "no faces")):
             with self.subTest(pattern=pattern):
