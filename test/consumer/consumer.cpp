@@ -4,7 +4,8 @@
 // sphere is certified, and the second unit says so, too.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
-#include <surety/surety.h>
+#include <surety/geometric_mesh.h>
+#include <surety/version.h>
 
 #include <CGAL/boost/graph/generators.h>
 #include <CGAL/subdivision_method_3.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A second translation unit with all of the library: what a header defines twice would not link.
+// A second translation unit, with all of the library: what a header defines twice would not link.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <surety/surety.h>
