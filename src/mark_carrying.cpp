@@ -5,12 +5,15 @@
 // mesh as in the old one.
 #include "marks.h"
 
+#include "failure.h"
+
 #include <surety/internal/metric/face_locator.h>
 
 #include <CGAL/AABB_halfedge_graph_segment_primitive.h>
 
 #include <array>
 #include <map>
+#include <string>
 #include <vector>
 
 namespace surety::tool {
@@ -48,12 +51,25 @@ public:
 
   Vertex find(const Point& p) const
   {
-    const auto found = at_.find(p);
-    return found == at_.end() ? Mesh::null_vertex() : found->second;
+    const auto [first, last] = at_.equal_range(p);
+    return first == last ? Mesh::null_vertex() : first->second;
+  }
+
+  /// The first halfedge from one point to another that is accepted: sheets that touch have several
+  /// vertices in one place.
+  template <class Accept>
+  Mesh::Halfedge_index find_halfedge(
+      const Mesh& mesh, const Point& p, const Point& q, const Accept& accept) const
+  {
+    const auto [first, last] = at_.equal_range(p);
+    for (auto v = first; v != last; ++v)
+      for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v->second)))
+        if (mesh.point(mesh.source(h)) == q && accept(mesh.opposite(h))) return mesh.opposite(h);
+    return Mesh::null_halfedge();
   }
 
 private:
-  std::map<Point, Vertex> at_;
+  std::multimap<Point, Vertex> at_;
 };
 
 /// The feature edge nearest to a point.
@@ -111,28 +127,41 @@ void carry_edges(
   }
 }
 
-/// Required edges and faces are there as they were.
+void require_kept(bool is_kept, const char* what)
+{
+  if (is_kept) return;
+  throw Failure(
+      not_certified,
+      std::string("a required ") + what
+          + " of the input was not kept; nothing was written; please report this");
+}
+
+/// Required elements are there as they were.
 void carry_required(const Mesh& from, const Marks& old, Mesh& to, Marks& marks)
 {
   const Vertex_finder finder(to);
-  const auto new_halfedge = [&](Vertex a, Vertex b) {
-    const Vertex v = finder.find(from.point(a)), w = finder.find(from.point(b));
-    const bool is_there = v != Mesh::null_vertex() && w != Mesh::null_vertex();
-    return is_there ? to.halfedge(v, w) : Mesh::null_halfedge();
-  };
+  const auto any = [](Mesh::Halfedge_index) { return true; };
   for (const Edge e : from.edges()) {
     if (!old.is_required_edge[e]) continue;
-    const auto h = new_halfedge(from.vertex(e, 0), from.vertex(e, 1));
-    if (h != Mesh::null_halfedge()) marks.is_required_edge[to.edge(h)] = true;
+    const Point &p = from.point(from.vertex(e, 0)), &q = from.point(from.vertex(e, 1));
+    const auto h = finder.find_halfedge(to, p, q, any);
+    require_kept(h != Mesh::null_halfedge(), "edge");
+    marks.is_required_edge[to.edge(h)] = true;
   }
   for (const Face f : from.faces()) {
     if (!old.is_required_face[f]) continue;
     const auto [a, b, c] = corners(from, f);
-    const auto h = new_halfedge(a, b);
-    if (h == Mesh::null_halfedge() || to.face(h) == Mesh::null_face()) continue;
-    if (finder.find(from.point(c)) == to.target(to.next(h)))
-      marks.is_required_face[to.face(h)] = true;
+    const Point& apex = from.point(c);
+    const auto h
+        = finder.find_halfedge(to, from.point(a), from.point(b), [&](Mesh::Halfedge_index k) {
+            return !to.is_border(k) && to.point(to.target(to.next(k))) == apex;
+          });
+    require_kept(h != Mesh::null_halfedge(), "triangle");
+    marks.is_required_face[to.face(h)] = true;
   }
+  for (const Vertex v : from.vertices())
+    if (old.is_required_vertex[v])
+      require_kept(finder.find(from.point(v)) != Mesh::null_vertex(), "vertex");
 }
 
 /// The faces that are connected to one without crossing a feature edge.

@@ -52,6 +52,7 @@ void mark_features(Mesh& mesh, const Features& features);
 /// Marks a mesh, made anew from another one, like it: vertices at the same place, edges of curves
 /// like the nearest edge of a feature there, faces like the region that they replace.
 /// \param features of the old mesh.
+/// \throws Failure (not certified) if a required element is not there any more.
 /// \pre The old mesh has marks; the new one has the map "e:is_feature" of `make_unit_mesh()`.
 void carry_marks(const Mesh& from, const Features& features, Mesh& to);
 
