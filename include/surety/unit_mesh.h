@@ -229,7 +229,8 @@ Unit_mesh_result make_unit_mesh(
   for (const auto f : result.faces()) deviation[f] = bounds[position++];
   Unit_mesh_result answer{
       Certificate(length, bound, std::nullopt, maker.operations(), maker.is_cancelled()),
-      maker.fitness(), maker.fitness(metric), maker.passes()};
+      maker.fitness(), {}, maker.passes()};
+  answer.fit_of_given = maker.fitness_of_given();
   mesh = std::move(result);
   return answer;
 }

@@ -117,6 +117,7 @@ private:
   void set_faces(const Disc& disc)
   {
     new_faces_.clear();
+    predecessors_.clear();
     outer_faces_.clear();
     candidates_.clear();
     disc.for_each_new_face([&](Index i) {
@@ -125,6 +126,7 @@ private:
           disc.apex_point, mesh_.point(disc.ring[i]), mesh_.point(disc.ring[disc.after(i)]),
           disc.face[i]);
       candidates_.add(new_faces_.back());
+      predecessors_.push_back(mesh_.face(disc.inner[i]));
     });
     for (const Index h : disc.inner) {
       const Index f = mesh_.face(Working_mesh::opposite(h));
@@ -143,14 +145,32 @@ private:
     for (const Index f : outer_faces_) seeds_.push_back(seed_[f]);
     new_seed_.clear();
     new_bound_.clear();
-    for (const covering::Triangle& face : new_faces_) {
+    for (std::size_t i = 0; i < new_faces_.size(); ++i) {
+      const covering::Triangle& face = new_faces_[i];
       auto proof = projection_.prove(face, seeds_, squared_limit_);
       if (!proof && projection_.visited().size() <= worth_cells) proof = prove_by_cells(face, disc);
+      if (!proof && disc.kind == Disc::Kind::split)
+        proof = prove_by_predecessor(face, predecessors_[i]);
       if (!proof) return false;
       new_seed_.push_back(proof->seed);
       new_bound_.push_back(proof->squared_distance);
     }
     return true;
+  }
+
+  /// Every point of a new face is as near to an old one as its farthest corner, which may leave
+  /// enough of what the old one was away from T.
+  std::optional<covering::Projection::Proof> prove_by_predecessor(
+      const covering::Triangle& face, Index old) const
+  {
+    if (old == none || mesh_.is_ghost_face(old)) return std::nullopt;
+    const covering::Triangle before = this->face(old);
+    double squared = 0;
+    for (const Vector& p : face.corners()) squared = std::max(squared, before.squared_distance(p));
+    if (squared > squared_limit_) return std::nullopt;
+    const double sum = rounding_.upper_bound(bound_[old]) + rounding_.upper_bound(squared);
+    if (sum * sum > squared_limit_) return std::nullopt;
+    return covering::Projection::Proof{seed_[old], sum * sum};
   }
 
   /// The general way: cells of the face, each near to a triangle of T nearby.
@@ -258,6 +278,7 @@ private:
 
   covering::Candidates candidates_, nearby_;
   std::vector<covering::Triangle> new_faces_;
+  std::vector<Index> predecessors_; ///< of each new face: the old one at the same edge of the ring
   std::vector<Index> outer_faces_, seeds_, new_seed_, roots_, nearby_list_;
   std::vector<double> new_bound_;
   std::vector<covering::Cover_node> nodes_, face_cells_;

@@ -27,6 +27,12 @@ public:
 
   Foot closest(const Vector& p, Index start) const
   {
+    return closest(p, start, [](Index) { return true; });
+  }
+  /// The same, by way of faces that `may_enter(face)` admits.
+  template <class May_enter>
+  Foot closest(const Vector& p, Index start, const May_enter& may_enter) const
+  {
     Foot best = foot_on(p, start);
     for (bool closer = true; closer && !best.is_inside;) {
       closer = false;
@@ -36,7 +42,7 @@ public:
         if (v == best.opposite) continue;
         for (const Index e : reference_.edges_at(v))
           for (const Index f : reference_.faces_of_edge(e)) {
-            if (f == none || f == from || f == best.face) continue;
+            if (f == none || f == from || f == best.face || !may_enter(f)) continue;
             const Foot foot = foot_on(p, f);
             if (foot.squared_distance < best.squared_distance) best = foot, closer = true;
           }

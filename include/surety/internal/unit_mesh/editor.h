@@ -15,7 +15,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <queue>
 #include <set>
 #include <utility>
 #include <vector>
@@ -40,6 +42,7 @@ public:
       metric_.emplace_back();
       normal_.push_back(Vector::Zero());
       offset_.push_back(0);
+      share_.push_back(1);
       take_ground(v);
     }
     for (Index e = 0; e < is_feature.size(); ++e) curve_.push_back(is_feature[e] ? e : none);
@@ -56,11 +59,14 @@ public:
     if (guard_) guard_->clean_up();
   }
 
-  /// After the ground has changed.
-  void take_ground()
+  /// Makes the sizes at some vertices smaller by a factor, where they stay above the least, and
+  /// those around them so that shares grow by no more than `growth` along an edge of unit length.
+  /// Tells whether it has done anything.
+  bool lower_sizes(const std::vector<Index>& vertices, double factor, double least, double growth);
+  /// Forgets that sizes have been lowered.
+  void take_sizes_as_given()
   {
-    for (Index v = 0; v < stand_.size(); ++v)
-      if (mesh_.is_live_vertex(v)) take_ground(v);
+    for (Index v = 0; v < stand_.size(); ++v) set_share(v, 1);
   }
 
   bool is_real(Index e) const { return mesh_.is_live_edge(e) && !touches_ghost(e); }
@@ -98,6 +104,7 @@ private:
     Vector point;
     Standpoint stand;
     Local_metric metric;
+    double share = 1;               ///< of the sizes that the ground asks for
     Vector normal = Vector::Zero(); ///< zero on curves
     double offset = 0;              ///< of the point from the support, along the normal
   };
@@ -122,23 +129,31 @@ private:
     }
   }
 
-  Apex apex_at(const Standpoint& stand, const Vector& point) const
+  /// Lowers or raises the sizes at a vertex of M to a share of what the ground asks for.
+  void set_share(Index v, double share)
   {
-    Apex result{point, stand, ground_.metric(stand), Vector::Zero(), 0};
+    metric_[v].scale_sizes(share / share_[v]);
+    share_[v] = share;
+  }
+
+  Apex apex_at(const Standpoint& stand, const Vector& point, double share) const
+  {
+    Apex result{point, stand, ground_.metric(stand), share, Vector::Zero(), 0};
+    result.metric.scale_sizes(share);
     if (stand.edge == none) result.normal = ground_.normal(stand);
     return result;
   }
   /// At a distance from the support.
-  Apex apex_above(const Standpoint& stand, double offset) const
+  Apex apex_above(const Standpoint& stand, double share, double offset) const
   {
-    Apex result = apex_at(stand, ground_.support_point(stand));
+    Apex result = apex_at(stand, ground_.support_point(stand), share);
     result.offset = offset;
     result.point += offset * result.normal;
     return result;
   }
   Apex apex_of(Index v) const
   {
-    return {mesh_.point(v), stand_[v], metric_[v], normal_[v], offset_[v]};
+    return {mesh_.point(v), stand_[v], metric_[v], share_[v], normal_[v], offset_[v]};
   }
 
   /// How far the new faces are below and above T, as far as samples show.
@@ -257,11 +272,13 @@ private:
       metric_.resize(v + 1);
       normal_.resize(v + 1, Vector::Zero());
       offset_.resize(v + 1, 0);
+      share_.resize(v + 1, 1);
     }
     stand_[v] = apex.stand;
     metric_[v] = apex.metric;
     normal_[v] = apex.normal;
     offset_[v] = apex.offset;
+    share_[v] = apex.share;
   }
 
   /// Makes the relocation that check() has just accepted.
@@ -274,6 +291,7 @@ private:
     ++operations_.relocations;
   }
 
+  Index face_of_ground(Index e) const;
   std::optional<Apex> middle_of(Index e) const;
   double mean_offset(Index h, const Apex& apex) const
   {
@@ -300,6 +318,7 @@ private:
   std::vector<Local_metric> metric_;
   std::vector<Vector> normal_;
   std::vector<double> offset_;
+  std::vector<double> share_;               ///< of the sizes that the ground asks for, at most 1
   std::set<std::pair<Index, Index>> whole_; ///< edges by their ends, the lower one first
   std::vector<Index> curve_; ///< of a feature edge of M: an edge of T of the same curve
   Operations operations_;
@@ -317,10 +336,14 @@ inline bool Editor::admits_normals(const Apex& apex)
     const Vector n = unit(
         (mesh_.point(v[1]) - mesh_.point(v[0])).cross(mesh_.point(v[2]) - mesh_.point(v[0])));
     old_normals_.push_back(n);
+    // What is only divided looks as it did.
+    if (disc_.kind == Disc::Kind::split && !apex.normal.isZero(0))
+      before = std::min(before, n.dot(apex.normal));
     for (const Index corner : v)
       if (!normal_[corner].isZero(0)) before = std::min(before, n.dot(normal_[corner]));
   });
-  const double least = std::min(least_cosine, before);
+  constexpr double rounding = 1e-9;
+  const double least = std::min(least_cosine, before - rounding);
   bool admits = true;
   for_each_new_face([&](const std::array<Index, 3>& v) {
     if (!admits) return;
@@ -337,6 +360,19 @@ inline bool Editor::admits_normals(const Apex& apex)
   return admits;
 }
 
+/// A face of T on the same side of all curves as an edge of M: where a vertex of its faces stands
+/// that is on none, or, where all are on some, the one that the bound knows.
+inline Index Editor::face_of_ground(Index e) const
+{
+  for (const Index h : {2 * e, 2 * e + 1}) {
+    if (mesh_.is_ghost_face(mesh_.face(h))) continue;
+    for (const Index v : {mesh_.source(h), mesh_.target(mesh_.next(h))})
+      if (stand_[v].edge == none && !normal_[v].isZero(0)) return stand_[v].face;
+  }
+  const Index f = mesh_.face(2 * e);
+  return bound_.seed_of(mesh_.is_ghost_face(f) ? mesh_.face(2 * e + 1) : f);
+}
+
 /// The point of the ground below the metric middle of an edge: where both halves are as long.
 inline std::optional<Editor::Apex> Editor::middle_of(Index e) const
 {
@@ -349,13 +385,12 @@ inline std::optional<Editor::Apex> Editor::middle_of(Index e) const
     if (std::abs(r - 1) > 1e-6) t = (std::sqrt(r) - 1) / (r - 1);
   }
   const Vector middle = mesh_.point(a) + std::clamp(t, .2, .8) * along;
+  const double share = (share_[a] + share_[b]) / 2;
   if (mesh_.is_feature(e)) {
     if (curve_[e] == none) return std::nullopt;
-    return apex_at(ground_.nearest_on_curve(middle, curve_[e]), middle);
+    return apex_at(ground_.nearest_on_curve(middle, curve_[e]), middle, share);
   }
-  const Index f = mesh_.face(2 * e);
-  const Index seed = bound_.seed_of(mesh_.is_ghost_face(f) ? mesh_.face(2 * e + 1) : f);
-  return apex_at(ground_.nearest(middle, seed), middle);
+  return apex_at(ground_.nearest(middle, face_of_ground(e)), middle, share);
 }
 
 inline bool Editor::split(Index e)
@@ -376,7 +411,7 @@ inline bool Editor::split(Index e)
   if (!apex) return refuse(Verdict::feature);
 
   const Vector middle = apex->point;
-  const Vector above = apex_above(apex->stand, mean_offset(2 * e, *apex)).point;
+  const Vector above = apex_above(apex->stand, apex->share, mean_offset(2 * e, *apex)).point;
   const Index a = mesh_.source(2 * e), b = mesh_.target(2 * e);
   const double whole = length(e);
   Verdict verdict = Verdict::shape;
@@ -413,6 +448,37 @@ inline bool Editor::has_long_edge(const Apex& apex, double longest) const
   return found;
 }
 
+inline bool Editor::lower_sizes(
+    const std::vector<Index>& vertices, double factor, double least, double growth)
+{
+  using Entry = std::pair<double, Index>; // share and vertex
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+  std::vector<bool> is_marked(share_.size(), false);
+  for (const Index v : vertices) {
+    if (!mesh_.is_live_vertex(v) || mesh_.is_fixed(v) || is_marked[v]) continue;
+    is_marked[v] = true;
+    if (measure_.least_size(metric_[v]) * factor < least) continue;
+    set_share(v, share_[v] * factor);
+    queue.emplace(share_[v], v);
+  }
+  const bool is_any = !queue.empty();
+  while (!queue.empty()) {
+    const auto [share, v] = queue.top();
+    queue.pop();
+    if (share > share_[v]) continue;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      const Index w = mesh_.target(h);
+      if (mesh_.is_ghost_vertex(w)) return;
+      // The length before sizes were lowered.
+      const double most = share + growth * share_[v] * length(Working_mesh::edge(h));
+      if (share_[w] <= most) return;
+      set_share(w, most);
+      queue.emplace(most, w);
+    });
+  }
+  return is_any;
+}
+
 inline Verdict Editor::collapse_into(Index h, double longest)
 {
   make_collapse_disc(mesh_, h, disc_);
@@ -443,7 +509,8 @@ inline Verdict Editor::collapse_to_better_place(Index h, double longest)
     const Standpoint stand = is_on_curve
         ? ground_.nearest_on_curve(aim, curve_[Working_mesh::edge(h)])
         : ground_.nearest(aim, stand_[q].face);
-    Apex apex = apex_above(stand, is_on_curve ? 0 : (offset_[p] + offset_[q]) / 2);
+    Apex apex = apex_above(
+        stand, (share_[p] + share_[q]) / 2, is_on_curve ? 0 : (offset_[p] + offset_[q]) / 2);
     if (places_freely_ && !is_on_curve)
       for (int round = 0; round < 2; ++round) shift(apex, .5);
     if (has_long_edge(apex, longest) || refuses_shape(apex)) {
@@ -556,7 +623,7 @@ inline bool Editor::relocate(Index v)
     const Vector target = from.point + step * (aim - from.point);
     const Standpoint stand = is_on_curve ? ground_.nearest_on_curve(target, stand_[v].edge)
                                          : ground_.nearest(target, stand_[v].face);
-    const Apex apex = apex_above(stand, offset_[v]);
+    const Apex apex = apex_above(stand, share_[v], offset_[v]);
     if (!(energy(apex) < (1 - gain) * before)) continue;
     verdict = check(apex);
     if (verdict != Verdict::accept) continue;

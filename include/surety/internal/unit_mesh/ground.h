@@ -60,32 +60,8 @@ public:
           if (named[k] == vertex_name_[corner[i]]) support_corner_[f][i] = k;
     }
     for (std::uint32_t s = 0; s < field.number_of_sides(); ++s) normal_.push_back(field.normal(s));
-    refresh(field);
-  }
-
-  /// Takes the sizes of a field anew.
-  void refresh(const Metric_field& field)
-  {
-    const auto sides = static_cast<Index>(field.number_of_sides());
-    size_.resize(sides);
-    if (!is_isotropic_) sizes_.resize(sides);
-    for (Index s = 0; s < sides; ++s) {
-      if (is_isotropic_) {
-        size_[s] = scale_ * field.size(s);
-      } else {
-        sizes_[s] = scale_ * metric::size_tensor(field.tensor(s));
-      }
-    }
-    // All sides of a vertex of a curve are to be pleased.
-    const auto vertices = static_cast<Index>(vertex_name_.size());
-    at_vertex_.resize(vertices);
-    for (Index v = 0; v < vertices; ++v) {
-      if (is_isotropic_)
-        at_vertex_[v].size = scale_ * field.size_at_vertex(vertex_name_[v]);
-      else
-        at_vertex_[v].set_sizes(
-            scale_ * metric::size_tensor(field.tensor_at_vertex(vertex_name_[v])));
-    }
+    take_sizes(field);
+    find_sheets();
   }
 
   bool is_isotropic() const { return is_isotropic_; }
@@ -110,11 +86,13 @@ public:
     return result;
   }
 
-  /// The point of T nearest to p, by walking from a face.
+  /// The point of T nearest to p, by walking from a face. The walk does not cross curves: beyond
+  /// them are other sizes and other normals.
   Standpoint nearest(const Vector& p, Index face) const
   {
     Standpoint result;
-    result.face = walk_.closest(p, face).face;
+    const Index sheet = sheet_[face];
+    result.face = walk_.closest(p, face, [&](Index f) { return sheet_[f] == sheet; }).face;
     const auto corner = reference_.vertices_of_face(result.face);
     const Vector& a = reference_.point(corner[0]);
     const auto [v, w]
@@ -215,24 +193,52 @@ public:
     return unit(sum);
   }
 
-  /// The sides of the field that the metric at a standpoint comes from.
-  template <class Visit>
-  void for_each_side(const Standpoint& at, Visit visit) const
+private:
+  /// The parts that the curves divide T into.
+  void find_sheets()
   {
-    if (at.edge == none) {
-      for (const Index s : sides_[at.face]) visit(s);
-      return;
-    }
-    for (const Index f : reference_.faces_of_edge(at.edge)) {
-      if (f == none) continue;
-      const auto corner = reference_.vertices_of_face(f);
-      const auto& ends = reference_.vertices_of_edge(at.edge);
-      for (int i = 0; i < 3; ++i)
-        if (corner[i] == ends[0] || corner[i] == ends[1]) visit(sides_[f][i]);
+    sheet_.assign(reference_.number_of_faces(), none);
+    std::vector<Index> stack;
+    for (Index f = 0; f < sheet_.size(); ++f) {
+      if (sheet_[f] != none) continue;
+      sheet_[f] = f;
+      stack.push_back(f);
+      while (!stack.empty()) {
+        const Index top = stack.back();
+        stack.pop_back();
+        for (const Index e : reference_.edges_of_face(top)) {
+          if (is_feature_[e]) continue;
+          for (const Index next : reference_.faces_of_edge(e)) {
+            if (next == none || sheet_[next] != none) continue;
+            sheet_[next] = f;
+            stack.push_back(next);
+          }
+        }
+      }
     }
   }
 
-private:
+  void take_sizes(const Metric_field& field)
+  {
+    const auto sides = static_cast<Index>(field.number_of_sides());
+    for (Index s = 0; s < sides; ++s) {
+      if (is_isotropic_) {
+        size_.push_back(scale_ * field.size(s));
+      } else {
+        sizes_.push_back(scale_ * metric::size_tensor(field.tensor(s)));
+      }
+    }
+    // All sides of a vertex of a curve are to be pleased.
+    at_vertex_.resize(vertex_name_.size());
+    for (Index v = 0; v < at_vertex_.size(); ++v) {
+      if (is_isotropic_)
+        at_vertex_[v].size = scale_ * field.size_at_vertex(vertex_name_[v]);
+      else
+        at_vertex_[v].set_sizes(
+            scale_ * metric::size_tensor(field.tensor_at_vertex(vertex_name_[v])));
+    }
+  }
+
   Standpoint foot_on_edge(const Vector& p, Index edge) const
   {
     const auto& [s, t] = reference_.vertices_of_edge(edge);
@@ -262,6 +268,7 @@ private:
   const Geometric_support& support_;
   double scale_;
   bool is_isotropic_;
+  std::vector<Index> sheet_;                ///< of each face: what curves divide T into
   std::vector<std::array<Index, 3>> sides_; ///< of the field, by corner of the reference's faces
   std::vector<std::array<int, 3>> support_corner_;         ///< the support's order of these corners
   std::vector<Index> face_name_, edge_name_, vertex_name_; ///< in the user's mesh

@@ -8,6 +8,7 @@
 #include <surety/internal/metric/length.h>
 #include <surety/internal/metric/tensor.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -37,6 +38,12 @@ struct Local_metric {
     const Tensor inverse = tensor.inverse();
     metric = inverse * inverse;
   }
+  void scale_sizes(double factor)
+  {
+    size *= factor;
+    sizes *= factor;
+    metric /= factor * factor;
+  }
 };
 
 /// Lengths and shapes in a metric of either kind.
@@ -59,6 +66,12 @@ public:
     }
     return metric::length_of_linear_size(
         metric::length_in(a.metric, e), metric::length_in(b.metric, e));
+  }
+
+  double least_size(const Local_metric& at) const
+  {
+    if (is_isotropic_) return at.size;
+    return Eigen::SelfAdjointEigenSolver<Tensor>(at.sizes, Eigen::EigenvaluesOnly).eigenvalues()[0];
   }
 
   /// Q of a triangle as the metric of its smoothest corners sees it.

@@ -7,7 +7,6 @@
 
 #include <surety/features.h>
 #include <surety/geometric_support.h>
-#include <surety/gradation.h>
 #include <surety/internal/deviation/covering_bound.h>
 #include <surety/internal/geometric_mesh/exchange.h>
 #include <surety/internal/journal.h>
@@ -47,9 +46,7 @@ public:
       const Mesh& mesh, const Points& points, const Features& features, const Metric_field& field,
       const Geometric_support& support, const Controls& controls,
       std::function<bool(double, std::size_t)> goes_on)
-    : mesh_(mesh),
-      controls_(controls),
-      field_(field),
+    : controls_(controls),
       scale_(normalising_scale(mesh, points)),
       elements_(mesh, points),
       reference_(make_reference(
@@ -118,15 +115,11 @@ public:
     result.Q_avg = sum / double(faces);
     return result;
   }
-  /// With respect to another metric of T.
-  Metric_fit fitness(const Metric_field& field)
+  /// With respect to the metric as it was given; to be asked last.
+  Metric_fit fitness_of_given()
   {
-    ground_.refresh(field);
-    editor_.take_ground();
-    const Metric_fit result = fitness();
-    ground_.refresh(field_);
-    editor_.take_ground();
-    return result;
+    editor_.take_sizes_as_given();
+    return fitness();
   }
 
   /// M as a mesh of its own, with b(K) in "f:deviation" and the curves in "e:is_feature".
@@ -204,30 +197,11 @@ private:
   bool give_way()
   {
     constexpr double factor = .8;
-    std::vector<bool> is_marked(field_.number_of_sides(), false);
-    for (const Index v : remesher_.blocked()) {
-      if (!working_.is_live_vertex(v) || working_.is_fixed(v)) continue;
-      ground_.for_each_side(editor_.standpoint(v), [&](Index s) { is_marked[s] = true; });
-    }
-    bool is_any = false;
-    for (std::uint32_t s = 0; s < is_marked.size(); ++s) {
-      if (!is_marked[s] || field_.size(s) * factor < controls_.least_size) continue;
-      if (field_.kind() == Metric_kind::isotropic)
-        field_.set_size(s, factor * field_.size(s));
-      else
-        field_.set_tensor(s, field_.tensor(s) / (factor * factor));
-      is_any = true;
-    }
-    if (!is_any) return false;
-    limit_gradation(mesh_, field_, parameters::gradation(controls_.gradation));
-    ground_.refresh(field_);
-    editor_.take_ground();
-    return true;
+    return editor_.lower_sizes(
+        remesher_.blocked(), factor, scale_ * controls_.least_size, std::log(controls_.gradation));
   }
 
-  const Mesh& mesh_;
   Controls controls_;
-  Metric_field field_;
   double scale_;
   Elements<Mesh> elements_;
   Reference reference_;

@@ -41,7 +41,8 @@ public:
     flip();
     collapse(.3, 2);
     flip();
-    constexpr int most_passes = 3;
+    // Each pass halves what is long; the longest edge of a part can be a thousand units.
+    constexpr int most_passes = 20;
     for (int pass = 0; pass < most_passes && !is_cancelled_; ++pass) {
       const std::size_t splits = split(2);
       collapse(.3, 2);
