@@ -34,6 +34,16 @@ struct Features {
 
 namespace internal {
 
+template <class Mesh>
+void require_features_of(const Mesh& mesh, const Features& features, const char* function)
+{
+  if (features.edge.size() == num_edges(mesh) && features.corner.size() == num_vertices(mesh)
+      && (features.whole.empty() || features.whole.size() == num_edges(mesh)))
+    return;
+  throw Invalid_input(
+      function, "features", "they do not belong to the mesh", "find them in this mesh");
+}
+
 constexpr double radians_per_degree = 3.14159265358979323846 / 180;
 
 template <class Mesh, class NamedParameters>

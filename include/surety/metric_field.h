@@ -186,6 +186,18 @@ private:
   std::vector<Tensor> tensors_; ///< of an anisotropic field, by side
 };
 
+namespace internal::metric {
+
+template <class Mesh, class Points>
+Metric_field uniform_metric(
+    const Mesh& mesh, const Sides& sides, const Points& points, Metric_kind kind, double size)
+{
+  return Metric_field(
+      kind, sides, side_normals(mesh, sides, points), curve_tangents(mesh, sides, points), size);
+}
+
+} // namespace internal::metric
+
 /// \brief The same size everywhere, with tangent planes that are taken from the mesh.
 ///
 /// \throws Invalid_input unless the size is finite and positive.
@@ -197,10 +209,8 @@ Metric_field make_uniform_metric(
 {
   const auto kind = CGAL::parameters::choose_parameter(
       CGAL::parameters::get_parameter(np, internal::metric_kind), internal::defaults::metric_kind);
-  const auto points = internal::vertex_points(mesh, np);
-  return Metric_field(
-      kind, sides, internal::metric::side_normals(mesh, sides, points),
-      internal::metric::curve_tangents(mesh, sides, points), size);
+  return internal::metric::uniform_metric(
+      mesh, sides, internal::vertex_points(mesh, np), kind, size);
 }
 
 } // namespace surety

@@ -16,6 +16,8 @@
 
 namespace surety {
 
+class Background_metric;
+
 /// How the distance between the mesh and its original is bounded.
 enum class Deviation_bound {
   direct,      ///< by a continuous map from the original to the mesh; never accumulates
@@ -109,6 +111,11 @@ struct smoothing_rounds_t {};
 struct tolerance_t {};
 struct geometric_support_t {};
 struct fewest_faces_t {};
+struct background_metric_t {};
+struct target_vertices_t {};
+struct target_error_t {};
+struct norm_exponent_t {};
+struct conserves_t {};
 
 inline constexpr feature_angle_t feature_angle{};
 inline constexpr corner_angle_t corner_angle{};
@@ -148,6 +155,11 @@ inline constexpr smoothing_rounds_t smoothing_rounds{};
 inline constexpr tolerance_t tolerance{};
 inline constexpr geometric_support_t geometric_support{};
 inline constexpr fewest_faces_t fewest_faces{};
+inline constexpr background_metric_t background_metric{};
+inline constexpr target_vertices_t target_vertices{};
+inline constexpr target_error_t target_error{};
+inline constexpr norm_exponent_t norm_exponent{};
+inline constexpr conserves_t conserves{};
 
 // CGAL has a parameter of this name already: the same tag, or the two spellings would set
 // different values.
@@ -183,6 +195,9 @@ constexpr bool fewest_faces = false;
 constexpr unsigned unit_mesh_iterations = 16;
 constexpr Placement unit_mesh_placement = Placement::free;
 constexpr Metric_kind remesh_metric_kind = Metric_kind::isotropic;
+// Of adaptation.
+constexpr double norm_exponent = 2;
+constexpr bool conserves = false;
 } // namespace defaults
 
 } // namespace internal
@@ -293,6 +308,14 @@ public:
     return then<internal::geometric_support_t>(support);
   }
   auto fewest_faces(bool fewest) const { return then<internal::fewest_faces_t>(fewest); }
+  auto background_metric(const Background_metric& metric) const
+  {
+    return then<internal::background_metric_t>(&metric);
+  }
+  auto target_vertices(double number) const { return then<internal::target_vertices_t>(number); }
+  auto target_error(double error) const { return then<internal::target_error_t>(error); }
+  auto norm_exponent(double p) const { return then<internal::norm_exponent_t>(p); }
+  auto conserves(bool does) const { return then<internal::conserves_t>(does); }
   /// @}
 
   /// \name CGAL's parameters that this library reads, with their meaning in CGAL
@@ -683,6 +706,43 @@ inline auto fewest_faces(bool fewest)
 {
   return Named_parameters<bool, internal::fewest_faces_t>(fewest);
 }
+
+/// \brief A metric on another mesh of the same surface, which a unit mesh respects as well
+/// (`Background_metric`). It is not copied, and must outlive the call. Default: none.
+inline auto background_metric(const Background_metric& metric)
+{
+  return Named_parameters<const Background_metric*, internal::background_metric_t>(&metric);
+}
+
+/// \brief The number of vertices that a mesh adapted to a field is to have.
+///
+/// Positive (`double`). No default: one of this and `target_error` must be given.
+inline auto target_vertices(double number)
+{
+  return Named_parameters<double, internal::target_vertices_t>(number);
+}
+
+/// \brief The interpolation error that a mesh adapted to a field is to have.
+///
+/// In the L^p norm of `norm_exponent`: in units of the field times length^(2/p). Positive
+/// (`double`). No default: one of this and `target_vertices` must be given.
+inline auto target_error(double error)
+{
+  return Named_parameters<double, internal::target_error_t>(error);
+}
+
+/// \brief The p of the L^p norm in which the interpolation error is made small.
+///
+/// At least 1; infinity makes the error equal everywhere, small p resolve weak features beside
+/// strong ones (`double`). Default: 2.
+inline auto norm_exponent(double p)
+{
+  return Named_parameters<double, internal::norm_exponent_t>(p);
+}
+
+/// \brief Whether the integral of a field is kept when it is carried to another mesh (`bool`).
+/// Default: `false`.
+inline auto conserves(bool does) { return Named_parameters<bool, internal::conserves_t>(does); }
 
 } // namespace parameters
 

@@ -22,6 +22,7 @@
 #include <surety/operations.h>
 #include <surety/parameters.h>
 #include <surety/remesh.h>
+#include <surety/solution_metric.h>
 #include <surety/statistics.h>
 #include <surety/support_on_geometric_mesh.h>
 #include <surety/unit_mesh.h>

@@ -98,16 +98,6 @@ Geometric_support support_for_unit_mesh(
   }
 }
 
-template <class Mesh>
-void require_features_of(const Mesh& mesh, const Features& features, const char* function)
-{
-  if (features.edge.size() == num_edges(mesh) && features.corner.size() == num_vertices(mesh)
-      && (features.whole.empty() || features.whole.size() == num_edges(mesh)))
-    return;
-  throw Invalid_input(
-      function, "features", "they do not belong to the mesh", "find them in this mesh");
-}
-
 /// The metric must have the sides that the features make, or curves would be lost.
 template <class Mesh>
 void require_metric_of(
