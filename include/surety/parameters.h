@@ -312,6 +312,10 @@ public:
   {
     return then<internal::background_metric_t>(&metric);
   }
+  auto background_metric(const Background_metric* metric_or_null) const
+  {
+    return then<internal::background_metric_t>(metric_or_null);
+  }
   auto target_vertices(double number) const { return then<internal::target_vertices_t>(number); }
   auto target_error(double error) const { return then<internal::target_error_t>(error); }
   auto norm_exponent(double p) const { return then<internal::norm_exponent_t>(p); }

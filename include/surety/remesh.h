@@ -199,6 +199,9 @@ Remeshing remesh(
             .geometric_support(support)
             .gradation(beta)
             .minimum_size(least)
+            .background_metric(choose_parameter(
+                get_parameter(np, internal::background_metric),
+                static_cast<const Background_metric*>(nullptr)))
             .placement(choose_parameter(
                 get_parameter(np, internal::placement), internal::defaults::unit_mesh_placement))
             .allow_self_intersections(choose_parameter(

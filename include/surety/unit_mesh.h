@@ -69,6 +69,8 @@ unit_mesh::Controls unit_mesh_controls(
       == Placement::free;
   controls.least_size = choose_parameter(get_parameter(np, minimum_size), 2 * tolerance_length);
   require_positive(controls.least_size, function, "minimum_size");
+  controls.background = choose_parameter(
+      get_parameter(np, background_metric), static_cast<const Background_metric*>(nullptr));
   return controls;
 }
 
@@ -154,6 +156,14 @@ void require_metric_of(
 ///     \cgalParamDescription{the smooth surface that vertices are placed on}
 ///     \cgalParamType{`Geometric_support`, of the same mesh}
 ///     \cgalParamDefault{one with the normals of the faces' means}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{background_metric}
+///     \cgalParamDescription{a metric on another mesh of the same surface, near to this one, to be
+///       respected as well. It is read at each point that is asked for, on the face that is nearest
+///       and looks the same way; its gradation must be limited already, since a front between the
+///       ends of an edge is seen from there only. The fits are those of both metrics together}
+///     \cgalParamType{`Background_metric`, which must outlive the call}
+///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{placement}
 ///     \cgalParamDescription{`Placement::on_surface`, vertices lie on the support, or

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What T says at each of its points: the metric, the normal, and the point of the support there. M
-// stands on it.
+// stands on it. What a metric in the background says is added at each point that is asked for.
 #ifndef SURETY_INTERNAL_UNIT_MESH_GROUND_H
 #define SURETY_INTERNAL_UNIT_MESH_GROUND_H
 
+#include <surety/background_metric.h>
 #include <surety/geometric_support.h>
 #include <surety/internal/deviation/reference.h>
 #include <surety/internal/geometric_mesh/exchange.h>
@@ -30,16 +31,19 @@ class Ground
 {
 public:
   /// Lengths of the mesh times `scale` are those of the reference.
+  /// \param background of the same surface, in lengths of the mesh; may be null
   template <class Mesh>
   Ground(
       const Mesh& mesh, const Elements<Mesh>& elements, const Reference& reference,
       const std::vector<bool>& is_feature, const std::vector<bool>& is_corner,
-      const Metric_field& field, const Geometric_support& support, double scale)
+      const Metric_field& field, const Geometric_support& support, double scale,
+      const Background_metric* background)
     : reference_(reference),
       walk_(reference),
       is_feature_(is_feature),
       is_corner_(is_corner),
       support_(support),
+      background_(background),
       scale_(scale),
       is_isotropic_(field.kind() == Metric_kind::isotropic),
       sides_(reference.number_of_faces()),
@@ -164,6 +168,7 @@ public:
         result.size = a.size + at.parameter * (b.size - a.size);
       else
         result.set_sizes(a.sizes + at.parameter * (b.sizes - a.sizes));
+      if (background_ != nullptr) respect_background_on_curve(at, result);
       return result;
     }
     const auto& side = sides_[at.face];
@@ -175,6 +180,7 @@ public:
       for (int i = 0; i < 3; ++i) sum += at.weights[i] * sizes_[side[i]];
       result.set_sizes(sum);
     }
+    if (background_ != nullptr) respect_background(point(at), normal(at), result);
     return result;
   }
   /// That of a corner, for edges between corners.
@@ -182,6 +188,10 @@ public:
   {
     Local_metric result = at_vertex_[v];
     result.kind = Vertex_kind::corner;
+    if (background_ == nullptr) return result;
+    for (const Index e : reference_.edges_at(v))
+      for (const Index f : reference_.faces_of_edge(e))
+        if (f != none) respect_background(reference_.point(v), normal_at(v, f), result);
     return result;
   }
 
@@ -239,6 +249,39 @@ private:
     }
   }
 
+  /// Of the side of a face at one of its corners.
+  const Vector& normal_at(Index v, Index face) const
+  {
+    const auto corner = reference_.vertices_of_face(face);
+    return normal_[sides_[face][corner[0] == v ? 0 : corner[1] == v ? 1 : 2]];
+  }
+
+  /// Both sides of a curve are to be pleased.
+  void respect_background_on_curve(const Standpoint& at, Local_metric& result) const
+  {
+    const auto& [s, t] = reference_.vertices_of_edge(at.edge);
+    const double w = at.parameter;
+    for (const Index f : reference_.faces_of_edge(at.edge))
+      if (f != none)
+        respect_background(
+            point(at), unit((1 - w) * normal_at(s, f) + w * normal_at(t, f)), result);
+  }
+
+  void respect_background(const Vector& p, const Vector& normal, Local_metric& result) const
+  {
+    const Surface_location place = background_->locate(p / scale_, normal);
+    if (is_isotropic_) {
+      result.size = std::min(result.size, scale_ * background_->size(place));
+      return;
+    }
+    Tensor other = background_->tensor(place) / (scale_ * scale_);
+    if (!normal.isZero(0)) other = metric::tangential(other, normal);
+    const Tensor both = metric::intersection(result.metric, other);
+    if (both == result.metric) return;
+    result.metric = both;
+    result.sizes = metric::size_tensor(both);
+  }
+
   Standpoint foot_on_edge(const Vector& p, Index edge) const
   {
     const auto& [s, t] = reference_.vertices_of_edge(edge);
@@ -266,6 +309,7 @@ private:
   Surface_walk walk_;
   const std::vector<bool>&is_feature_, &is_corner_;
   const Geometric_support& support_;
+  const Background_metric* background_;
   double scale_;
   bool is_isotropic_;
   std::vector<Index> sheet_;                ///< of each face: what curves divide T into

@@ -34,7 +34,8 @@ struct Controls {
   double collapse_below; ///< metric length
   bool allow_self_intersections;
   bool places_freely;
-  double least_size; ///< the metric gives way down to this
+  double least_size;                   ///< the metric gives way down to this
+  const Background_metric* background; ///< to be respected as well; may be null
 };
 
 template <class Mesh>
@@ -58,7 +59,9 @@ public:
           elements_, features, read_connectivity(mesh, elements_),
           points_in_order(elements_, points, scale_), journal_)),
       bound_(reference_, working_, scale_ * controls.tolerance),
-      ground_(mesh, elements_, reference_, is_feature_, is_corner_, field, support, scale_),
+      ground_(
+          mesh, elements_, reference_, is_feature_, is_corner_, field, support, scale_,
+          controls.background),
       editor_(
           ground_, working_, bound_, is_feature_, !controls.allow_self_intersections,
           controls.places_freely),
