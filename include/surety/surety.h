@@ -25,6 +25,7 @@
 #include <surety/solution_metric.h>
 #include <surety/statistics.h>
 #include <surety/support_on_geometric_mesh.h>
+#include <surety/transfer.h>
 #include <surety/unit_mesh.h>
 #include <surety/support_tessellation.h>
 #include <surety/version.h>
