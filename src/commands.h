@@ -17,6 +17,7 @@ void add_verify(CLI::App& program, Exit_status& status);
 void add_info(CLI::App& program, Exit_status& status);
 void add_hierarchy(CLI::App& program, Exit_status& status);
 void add_remesh(CLI::App& program, Exit_status& status);
+void add_adapt(CLI::App& program, Exit_status& status);
 
 /// Admits the numbers from `low` to `high` (which may be infinite), and nothing that is no number.
 CLI::Validator between(double low, double high);

@@ -61,6 +61,7 @@ int run(int argc, char* argv[])
       "Example: surety simplify part.stl -o part.off -t 0.1%");
   add_simplify(program, status);
   add_remesh(program, status);
+  add_adapt(program, status);
   add_compare(program, status);
   add_verify(program, status);
   add_info(program, status);

@@ -67,12 +67,16 @@ public:
     surety::limit_gradation(first, metric_);
   }
 
-  /// A mesh for a solution on the present one, proven to be near to the first.
-  Mesh operator()(Mesh& present, const Eigen::VectorXd& u, double vertices)
+  /// A mesh for solutions on the present one, proven to be near to the first.
+  Mesh operator()(Mesh& present, const std::vector<Eigen::VectorXd>& solutions, double vertices)
   {
     const auto wanted = surety::parameters::target_vertices(vertices).maximum_size(.5);
-    auto sizes = surety::make_solution_metric(
-        present, surety::find_features(present), to_field(present, u), wanted);
+    const auto features = surety::find_features(present);
+    const auto sizes_for = [&](const Eigen::VectorXd& u) {
+      return surety::make_solution_metric(present, features, to_field(present, u), wanted);
+    };
+    auto sizes = sizes_for(solutions.front());
+    for (const auto& u : solutions) surety::intersect(sizes, sizes_for(u));
     surety::limit_gradation(present, sizes);
     const surety::Background_metric background(present, sizes);
     Mesh next = first_;
@@ -120,9 +124,9 @@ bool show_steady_front(int levels)
   const Mesh first = sphere(levels);
   Adaptation adapt(first, .005);
   bool is_better = false;
-  for (double vertices = 200; vertices <= 1600; vertices *= 2) {
+  for (double vertices = 200; vertices <= 800; vertices *= 2) {
     Mesh mesh = first;
-    for (int loop = 0; loop < 3; ++loop) mesh = adapt(mesh, solve(mesh, k, source), vertices);
+    for (int loop = 0; loop < 2; ++loop) mesh = adapt(mesh, {solve(mesh, k, source)}, vertices);
     const double error = l2_error(mesh, solve(mesh, k, source), exact);
     std::cout << "adapted, " << mesh.number_of_vertices() << ", " << error << '\n';
     is_better = is_better || (error <= finest && 5 * double(mesh.number_of_vertices()) <= largest);
@@ -154,8 +158,8 @@ bool show_travelling_front(int levels)
         return value;
       });
     };
-    // Where the front will be is known from a first try on the old mesh.
-    Mesh next = adapt(mesh, step_on(mesh, u), 1000);
+    // The mesh must hold the front where it is and where it will be, as a first try tells.
+    Mesh next = adapt(mesh, {u, step_on(mesh, u)}, 600);
     const Field carried = next.add_property_map<Mesh::Vertex_index, double>("v:carried").first;
     const auto report = surety::transfer_solution(
         mesh, to_field(mesh, u), next, carried, surety::parameters::conserves(true));

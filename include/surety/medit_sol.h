@@ -55,6 +55,28 @@ inline Medit_solution read_medit_sol(const std::string& path)
   return read_medit_sol(in);
 }
 
+/// \brief Reads a field of scalars at vertices, of any sign, from the text form of a Medit .sol
+/// file.
+///
+/// \throws Invalid_input with the number of the line when the text is not such a file, or a value
+/// is not finite.
+inline std::vector<double> read_medit_scalars(std::istream& in)
+{
+  std::vector<double> result;
+  internal::metric::Medit_reader(in, "read_medit_scalars").read_scalars(result);
+  return result;
+}
+
+/// \brief Reads a field of scalars from a file; see the other overload.
+inline std::vector<double> read_medit_scalars(const std::string& path)
+{
+  std::ifstream in(path);
+  if (!in) {
+    throw Invalid_input("read_medit_scalars", "path", "\"" + path + "\" cannot be opened");
+  }
+  return read_medit_scalars(in);
+}
+
 /// \brief Writes a metric as the text form of a Medit .sol file, such that it is read back to the
 /// last bit.
 ///

@@ -28,6 +28,14 @@ class Medit_reader : Medit_words
 public:
   using Medit_words::Medit_words;
 
+  /// Values of a field, of any sign.
+  void read_scalars(std::vector<double>& values)
+  {
+    only_scalars_ = true;
+    std::vector<Tensor> none;
+    read(values, none);
+  }
+
   void read(std::vector<double>& sizes, std::vector<Tensor>& tensors)
   {
     bool has_dimension = false, has_field = false;
@@ -87,12 +95,15 @@ private:
     if (type != scalar && type != tensor) {
       fail("the type of the field is " + std::to_string(type) + ", not 1 (scalar) or 3 (tensor)");
     }
+    if (only_scalars_ && type != scalar)
+      fail("the type of the field is " + std::to_string(type) + ", not 1 (scalar)");
     const std::size_t reserved = (std::min)(elements, std::size_t(1) << 16);
     type == scalar ? sizes.reserve(reserved) : tensors.reserve(reserved);
     for (std::size_t i = 0; i < elements; ++i) {
       if (type == scalar) {
         sizes.push_back(real());
-        if (!(sizes.back() > 0)) fail("the size " + shown() + " is not positive");
+        if (!only_scalars_ && !(sizes.back() > 0))
+          fail("the size " + shown() + " is not positive");
       } else {
         tensors.push_back(read_tensor());
       }
@@ -107,6 +118,8 @@ private:
     if (!(solver.eigenvalues()[0] > 0)) fail("the tensor is not positive definite");
     return m;
   }
+
+  bool only_scalars_ = false;
 };
 
 inline void write_medit_sol(
