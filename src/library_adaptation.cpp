@@ -8,6 +8,7 @@
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/property_map.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace surety::tool {
@@ -45,7 +46,7 @@ Adaptation adapt(
     Mesh& mesh, const Features& features, double tolerance, const Carried_field& field,
     const Adaptation_controls& controls, const Visitor& visitor)
 {
-  constexpr double vertices_per_complexity = 1.1547005383792515;
+  using internal::solution_metric::vertices_per_complexity;
   Metric_field metric = metric_of(field, controls);
   const double before = metric_complexity(field.mesh, metric) * vertices_per_complexity;
   const double gradation = controls.remeshing.gradation;

@@ -165,6 +165,23 @@ TEST(Medit_sol, the_writer_refuses_what_cannot_be_read_back)
   EXPECT_THROW(write_medit_sol(out, {{1}, {}}), Invalid_input);
 }
 
+TEST(Medit_sol, fields_have_values_of_any_sign)
+{
+  const auto text = [](const std::string& type, const std::string& values) {
+    return "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n3\n1 " + type + "\n" + values
+        + "\nEnd\n";
+  };
+  std::istringstream good(text("1", "-1.5 0 2e3"));
+  EXPECT_EQ(surety::read_medit_scalars(good), (std::vector<double>{-1.5, 0, 2e3}));
+  std::istringstream tensors(text("3", "1 0 1 0 0 1 1 0 1 0 0 1 1 0 1 0 0 1"));
+  EXPECT_THROW(surety::read_medit_scalars(tensors), Invalid_input);
+  std::istringstream infinite(text("1", "1 inf 2"));
+  EXPECT_THROW(surety::read_medit_scalars(infinite), Invalid_input);
+  std::istringstream sizes(text("1", "-1.5 0 2e3"));
+  EXPECT_THROW(surety::read_medit_sol(sizes), Invalid_input);
+  EXPECT_THROW(surety::read_medit_scalars(std::string("/no/such/file.sol")), Invalid_input);
+}
+
 TEST(Medit_sol, of_a_metric_has_what_satisfies_all_sides_of_each_vertex)
 {
   const Mesh mesh = cube(2);

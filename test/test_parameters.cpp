@@ -154,6 +154,26 @@ TEST(Parameters, each_can_start_a_chain)
       get_parameter(p::length_rule(Length_rule::simpson), tag::length_rule), Length_rule::simpson);
   EXPECT_EQ(get_parameter(p::gradation(1.75), tag::gradation), 1.75);
   EXPECT_EQ(get_parameter(p::smoothing_rounds(6u), tag::smoothing_rounds), 6u);
+  EXPECT_EQ(get_parameter(p::target_vertices(900), tag::target_vertices), 900);
+  EXPECT_EQ(get_parameter(p::target_error(0.5), tag::target_error), 0.5);
+  EXPECT_EQ(get_parameter(p::norm_exponent(3), tag::norm_exponent), 3);
+  EXPECT_TRUE(get_parameter(p::conserves(true), tag::conserves));
+}
+
+TEST(Parameters, those_of_adaptation_go_on_with_a_chain)
+{
+  const Background_metric* const none = nullptr;
+  const auto np = p::feature_angle(40)
+                      .target_vertices(900)
+                      .target_error(0.5)
+                      .norm_exponent(3)
+                      .conserves(true)
+                      .background_metric(none);
+  EXPECT_EQ(get_parameter(np, tag::target_vertices), 900);
+  EXPECT_EQ(get_parameter(np, tag::target_error), 0.5);
+  EXPECT_EQ(get_parameter(np, tag::norm_exponent), 3);
+  EXPECT_TRUE(get_parameter(np, tag::conserves));
+  EXPECT_EQ(get_parameter(np, tag::background_metric), none);
 }
 
 TEST(Parameters, chains_go_on_in_any_order_after_cgal_members)

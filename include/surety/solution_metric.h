@@ -15,6 +15,7 @@
 #include <surety/parameters.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 #include <algorithm>
 #include <cmath>
