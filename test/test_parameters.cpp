@@ -162,7 +162,7 @@ TEST(Parameters, each_can_start_a_chain)
 
 TEST(Parameters, those_of_adaptation_go_on_with_a_chain)
 {
-  const Background_metric* const none = nullptr;
+  const surety::Background_metric* const none = nullptr;
   const auto np = p::feature_angle(40)
                       .target_vertices(900)
                       .target_error(0.5)
