@@ -141,11 +141,16 @@ bool show_travelling_front(int levels)
   Adaptation adapt(first, .005);
   Mesh mesh = first;
   Front before{-.3};
-  Eigen::VectorXd u(mesh.number_of_vertices());
-  for (const auto v : mesh.vertices()) {
-    const Point& p = mesh.point(v);
-    u[Eigen::Index(v)] = before({p.x(), p.y(), p.z()});
-  }
+  const auto values_on = [&](const Mesh& m) {
+    Eigen::VectorXd u(m.number_of_vertices());
+    for (const auto v : m.vertices()) {
+      const Point& p = m.point(v);
+      u[Eigen::Index(v)] = before({p.x(), p.y(), p.z()});
+    }
+    return u;
+  };
+  for (int loop = 0; loop < 2; ++loop) mesh = adapt(mesh, {values_on(mesh)}, 600);
+  Eigen::VectorXd u = values_on(mesh);
   bool is_followed = true;
   std::cout << "step, vertices, proven distance from the first mesh, L2 error, mean lost\n";
   for (int step = 1; step <= 10; ++step) {
