@@ -64,13 +64,19 @@ public:
     const auto [one, other] = mesh_.places[edge];
     const Vector mean = unit(normal_[one / 3] + normal_[other / 3]);
     if (mean == Vector::Zero()) return crease;
-    const double radius = (std::max)(crease.reach, 2 * crease.length);
-    const Frame frame{(a + b) / 2, unit(b - a), Vector::Zero(), radius, turn};
-    const Side left = side(one / 3, edge, frame), right = side(other / 3, edge, frame);
-    if ((std::min)(left.width, right.width) < crease.reach) return crease;
-    const double persistent = angle_between(left.normal, right.normal);
-    if (persistent < least_persistence * turn) return crease;
-    crease.roughness = (std::max)(left.spread, right.spread) / persistent;
+    if (turn >= plain_turn && height(one / 3, edge) >= plain_width * crease.reach
+        && height(other / 3, edge) >= plain_width * crease.reach) {
+      crease.roughness = plain_roughness;
+      crease.is_candidate = true;
+      return crease;
+    }
+    // Where the mesh is coarse against the tolerance, what the reach sees says more.
+    const double wide = (std::max)(crease.reach, 2 * crease.length);
+    const double narrow = (std::max)(crease.reach, (std::min)(wide, 3 * crease.reach));
+    for (const double radius : {wide, narrow}) {
+      const Frame frame{(a + b) / 2, unit(b - a), Vector::Zero(), radius, turn};
+      crease.roughness = (std::min)(crease.roughness, roughness(one / 3, other / 3, edge, frame));
+    }
     crease.is_candidate = crease.roughness <= largest_roughness;
     return crease;
   }
@@ -79,6 +85,17 @@ private:
   static constexpr double least_persistence = 0.6;
   static constexpr double largest_roughness = 0.35;
   static constexpr double barrier = 0.7; // of the turn: what ends a side
+  // Two faces that reach far enough by themselves are flat sides, whatever is beyond them: coarse
+  // parts have nothing else.
+  static constexpr double plain_turn = 40 * 3.14159265358979323846 / 180;
+  static constexpr double plain_width = 2; // times the reach
+  static constexpr double plain_roughness = 0.05;
+
+  double height(Index face, Index edge) const
+  {
+    return 2 * area_[face]
+        / (mesh_.point[mesh_.ends[edge][1]] - mesh_.point[mesh_.ends[edge][0]]).norm();
+  }
 
   struct Frame {
     Vector middle, along, across;
@@ -90,6 +107,16 @@ private:
     Vector normal;
     double spread, width;
   };
+
+  /// Of the surroundings of an edge, over the turn that persists in them; 1 where none does.
+  double roughness(Index one, Index other, Index edge, const Frame& frame)
+  {
+    const Side left = side(one, edge, frame), right = side(other, edge, frame);
+    if ((std::min)(left.width, right.width) < 8 * tolerance_ / frame.turn) return 1;
+    const double persistent = angle_between(left.normal, right.normal);
+    if (persistent < least_persistence * frame.turn) return 1;
+    return (std::max)(left.spread, right.spread) / persistent;
+  }
 
   Side side(Index face, Index edge, const Frame& frame)
   {
