@@ -71,6 +71,9 @@ public:
 
   /// The triangles that the last proof, or attempt at it, has visited.
   const std::vector<Index>& visited() const { return patch_; }
+  /// Whether it has met a vertex so far from K, for its size, that it could not use it: triangles
+  /// of T are much larger than K there.
+  bool has_gone_far() const { return has_gone_far_; }
 
 private:
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -104,6 +107,7 @@ private:
     squared_limit_ = squared_limit;
     limit_ = std::sqrt(squared_limit) * (1 - 1e-9);
     patch_.clear();
+    has_gone_far_ = false;
     ++now_;
     const double bb = face.ab.squaredNorm(), bc = face.ab.dot(face.ac), cc = face.ac.squaredNorm();
     const double determinant = bb * cc - bc * bc;
@@ -137,11 +141,13 @@ private:
     constexpr double little = 1e-11;
     return std::abs(x) < little ? 0 : std::abs(x - 1) < little ? 1 : x;
   }
-  Image image_of(const Vector& p, double u, double v) const
+  Image image_of(const Vector& p, double u, double v)
   {
     Image result{u, v, std::numeric_limits<double>::infinity(), now_, codes(u, v)};
     if (std::abs(u) + std::abs(v) <= largest_coordinate)
       result.squared_distance = (p - face_->a - u * face_->ab - v * face_->ac).squaredNorm();
+    else
+      has_gone_far_ = true;
     return result;
   }
   bool is_near(Index vertex) { return image(vertex).squared_distance <= squared_limit_; }
@@ -385,7 +391,7 @@ private:
   const Triangle* face_ = nullptr;
   Vector dual_u_, dual_v_;
   double squared_limit_ = 0, limit_ = 0, largest_ = 0;
-  bool leaves_away_ = false;
+  bool leaves_away_ = false, has_gone_far_ = false;
   std::vector<Index> patch_;
   std::vector<Index> intruding_; ///< triangles where the boundary of D does
 };

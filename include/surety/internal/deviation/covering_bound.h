@@ -99,8 +99,13 @@ private:
   static constexpr double working_share = 0.999;
 
   /// Where T is finer than this under a face, cells are slow and seldom find what a projection does
-  /// not.
-  static constexpr std::size_t worth_cells = 8;
+  /// not; but where its triangles are much larger than the face, they do.
+  static constexpr std::size_t worth_cells = 8, worth_cells_where_large = 48;
+  bool are_cells_worth_it() const
+  {
+    return projection_.visited().size()
+        <= (projection_.has_gone_far() ? worth_cells_where_large : worth_cells);
+  }
 
   struct Planted {
     Index node, root;
@@ -148,7 +153,7 @@ private:
     for (std::size_t i = 0; i < new_faces_.size(); ++i) {
       const covering::Triangle& face = new_faces_[i];
       auto proof = projection_.prove(face, seeds_, squared_limit_);
-      if (!proof && projection_.visited().size() <= worth_cells) proof = prove_by_cells(face, disc);
+      if (!proof && are_cells_worth_it()) proof = prove_by_cells(face, disc);
       if (!proof && disc.kind == Disc::Kind::split)
         proof = prove_by_predecessor(face, predecessors_[i]);
       if (!proof) return false;
