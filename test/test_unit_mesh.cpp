@@ -122,6 +122,29 @@ bool has_edge(const Mesh& mesh, const Point& p, const Point& q)
   return false;
 }
 
+/// Twenty-four sides, each of two triangles that are as long as it.
+Mesh faceted_cylinder()
+{
+  Mesh result;
+  CGAL::make_regular_prism(24, result, Point(0, 0, 0), 2, .5, true);
+  CGAL::Polygon_mesh_processing::triangulate_faces(result);
+  return result;
+}
+
+TEST(Remesh, divides_the_long_faces_of_a_coarse_part)
+{
+  const Mesh cylinder = faceted_cylinder();
+  const double tolerance = .001 * diagonal_of(cylinder);
+  Mesh result = cylinder;
+  const Remeshing answer = remesh(result, tolerance);
+  expect_promises(cylinder, result, tolerance, answer.unit_mesh);
+  EXPECT_EQ(answer.features.ridges, 48u) << "the two rims";
+  EXPECT_GE(answer.unit_mesh.fit.unit_edges, 80);
+  EXPECT_LE(answer.unit_mesh.fit.Q_avg, 1.5);
+  // Sizes give way where it is needed, and not over the whole of faces as long as the part.
+  EXPECT_LE(result.number_of_faces(), 6000u);
+}
+
 TEST(Remesh, does_not_split_edges_that_are_to_stay_whole)
 {
   const Mesh cube = unit_cube();
