@@ -64,19 +64,15 @@ public:
     const auto [one, other] = mesh_.places[edge];
     const Vector mean = unit(normal_[one / 3] + normal_[other / 3]);
     if (mean == Vector::Zero()) return crease;
-    if (turn >= plain_turn && height(one / 3, edge) >= plain_width * crease.reach
-        && height(other / 3, edge) >= plain_width * crease.reach) {
+    if (turn >= plain_turn && is_plain(one / 3, edge, crease)
+        && is_plain(other / 3, edge, crease)) {
       crease.roughness = plain_roughness;
       crease.is_candidate = true;
       return crease;
     }
-    // Where the mesh is coarse against the tolerance, what the reach sees says more.
-    const double wide = (std::max)(crease.reach, 2 * crease.length);
-    const double narrow = (std::max)(crease.reach, (std::min)(wide, 3 * crease.reach));
-    for (const double radius : {wide, narrow}) {
-      const Frame frame{(a + b) / 2, unit(b - a), Vector::Zero(), radius, turn};
-      crease.roughness = (std::min)(crease.roughness, roughness(one / 3, other / 3, edge, frame));
-    }
+    const double radius = (std::max)(crease.reach, 2 * crease.length);
+    const Frame frame{(a + b) / 2, unit(b - a), Vector::Zero(), radius, turn};
+    crease.roughness = roughness(one / 3, other / 3, edge, frame);
     crease.is_candidate = crease.roughness <= largest_roughness;
     return crease;
   }
@@ -85,16 +81,23 @@ private:
   static constexpr double least_persistence = 0.6;
   static constexpr double largest_roughness = 0.35;
   static constexpr double barrier = 0.7; // of the turn: what ends a side
-  // Two faces that reach far enough by themselves are flat sides, whatever is beyond them: coarse
-  // parts have nothing else.
   static constexpr double plain_turn = 40 * 3.14159265358979323846 / 180;
   static constexpr double plain_width = 2; // times the reach
   static constexpr double plain_roughness = 0.05;
 
-  double height(Index face, Index edge) const
+  /// Whether a face is a flat side by itself, as those of coarse parts are: it reaches far enough,
+  /// and goes on flatly in some direction, or ends in edges as sharp. Those of a coarse scan reach
+  /// as far but go on flatly by chance only.
+  bool is_plain(Index face, Index edge, const Crease& crease) const
   {
-    return 2 * area_[face]
-        / (mesh_.point[mesh_.ends[edge][1]] - mesh_.point[mesh_.ends[edge][0]]).norm();
+    if (2 * area_[face] < plain_width * crease.reach * crease.length) return false;
+    bool is_flat = false, is_sharp = true;
+    for (const Index e : mesh_.edge[face]) {
+      if (e == edge) continue;
+      is_flat = is_flat || turn_[e] <= plain_roughness * turn_[edge];
+      is_sharp = is_sharp && turn_[e] >= barrier * turn_[edge];
+    }
+    return is_flat || is_sharp;
   }
 
   struct Frame {
