@@ -19,10 +19,13 @@ namespace surety {
 
 /// \brief What became of a field on the way to another mesh.
 struct Transfer_report {
-  double area_before = 0, area_after = 0; ///< of the meshes
-  double integral_before = 0, integral_after = 0;
-
+  double area_before = 0;     ///< of the first mesh
+  double area_after = 0;      ///< of the second one
+  double integral_before = 0; ///< of the field over the first mesh
+  double integral_after = 0;  ///< over the second one
+  /// Of the field as it was.
   double mean_before() const { return integral_before / area_before; }
+  /// Of the field as it was carried.
   double mean_after() const { return integral_after / area_after; }
   /// What of the mean has been gained or lost.
   double residual() const { return mean_after() - mean_before(); }
