@@ -123,8 +123,9 @@ void require_metric_of(
 /// geometric support of the mesh, and with free placement off it, where that leaves room. Every
 /// operation is checked before it is made: the two-sided Hausdorff distance to the input stays
 /// within the tolerance, so the result cannot fail to comply. Where the tolerance forbids the size
-/// that the metric asks for, the metric is made smaller at the vertices there by factors of 0.8, and
-/// around them so that it grows by `gradation`; `fit` and `fit_of_given` tell how far that went.
+/// that the metric asks for, the metric is made smaller at the vertices there by factors of 0.8,
+/// and around them so that it grows by `gradation`; `fit` and `fit_of_given` tell how far that
+/// went.
 ///
 /// Ridges, borders and constrained edges stay curves, with vertices on the support's curves; the
 /// proof is about the surfaces, not about these. Corners and constrained vertices stay where they
@@ -229,7 +230,9 @@ Unit_mesh_result make_unit_mesh(
   for (const auto f : result.faces()) deviation[f] = bounds[position++];
   Unit_mesh_result answer{
       Certificate(length, bound, std::nullopt, maker.operations(), maker.is_cancelled()),
-      maker.fitness(), {}, maker.passes()};
+      maker.fitness(),
+      {},
+      maker.passes()};
   answer.fit_of_given = maker.fitness_of_given();
   mesh = std::move(result);
   return answer;

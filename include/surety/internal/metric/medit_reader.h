@@ -102,8 +102,7 @@ private:
     for (std::size_t i = 0; i < elements; ++i) {
       if (type == scalar) {
         sizes.push_back(real());
-        if (!only_scalars_ && !(sizes.back() > 0))
-          fail("the size " + shown() + " is not positive");
+        if (!only_scalars_ && !(sizes.back() > 0)) fail("the size " + shown() + " is not positive");
       } else {
         tensors.push_back(read_tensor());
       }
