@@ -15,7 +15,7 @@ from pathlib import Path
 from info_runs import sphere
 
 SURETY = os.environ.get("SURETY", "surety")
-COMMANDS = ("simplify", "remesh", "compare", "verify", "info", "hierarchy")
+COMMANDS = ("simplify", "remesh", "compare", "verify", "info", "hierarchy", "adapt")
 
 
 def surety(*arguments):
