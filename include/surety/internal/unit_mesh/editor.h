@@ -59,9 +59,9 @@ public:
     if (guard_) guard_->clean_up();
   }
 
-  /// Makes the sizes at some vertices smaller by a factor, where they stay above the least, and
-  /// those around them so that shares grow by no more than `growth` along an edge of unit length.
-  /// Tells whether it has done anything.
+  /// Makes the sizes at some vertices smaller by a factor, and those around them so that shares
+  /// grow by no more than `growth` along an edge of unit length; none of them smaller than the
+  /// least. Tells whether it has done anything.
   bool lower_sizes(const std::vector<Index>& vertices, double factor, double least, double growth);
   /// Forgets that sizes have been lowered.
   void take_sizes_as_given()
@@ -470,7 +470,10 @@ inline bool Editor::lower_sizes(
       const Index w = mesh_.target(h);
       if (mesh_.is_ghost_vertex(w)) return;
       // The length before sizes were lowered.
-      const double most = share + growth * share_[v] * length(Working_mesh::edge(h));
+      double most = share + growth * share_[v] * length(Working_mesh::edge(h));
+      if (share_[w] <= most) return;
+      // Where sizes are small already, shares need not be: the least holds for all.
+      most = std::max(most, share_[w] * least / measure_.least_size(metric_[w]));
       if (share_[w] <= most) return;
       set_share(w, most);
       queue.emplace(most, w);
