@@ -122,6 +122,7 @@ TEST(Features_by_need, of_parts_are_found)
 {
   if (ridges_of("fandisk", 0.001) == std::size_t(-1)) GTEST_SKIP() << "no models";
   EXPECT_GE(ridges_of("fandisk", 0.001), 650u);
+  EXPECT_EQ(ridges_of("anchor", 0.001), 527u) << "as many as turn by more than 40 degrees";
   EXPECT_GE(ridges_of("anchor_dense", 0.001), 600u);
   EXPECT_GE(ridges_of("couplingdown", 0.001), 700u);
   EXPECT_GE(ridges_of("rotor_small", 0.001), 500u);
