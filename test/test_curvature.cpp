@@ -4,6 +4,7 @@
 // invariance, degenerate input, models.
 #include "curvature_errors.h"
 
+#include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
 #include <gtest/gtest.h>
@@ -274,6 +275,45 @@ TEST(Sides, of_a_cylinder_are_not_polluted_across_its_rims)
       EXPECT_NEAR(side.max_curvature, 0, 0.5 * 0.05) << at << " of " << around;
     }
     EXPECT_EQ(walls, around * (around / 3 + 1));
+  }
+}
+
+/// A tube of radius 2 without a vertex between its rims, as CAD systems write them; the upper rim
+/// is turned and lies in a slanted plane.
+Mesh tube_of_long_facets(std::size_t around, double slant)
+{
+  return to_mesh(sheet(
+      1, around,
+      [&](double i, double j) {
+        const double phi = -2 * pi * (j + .3 * i) / double(around);
+        const double x = 2 * std::cos(phi), y = 2 * std::sin(phi);
+        return Point(x, y, i * (9 + slant * x));
+      },
+      false, true));
+}
+
+TEST(Sides, of_a_tube_of_long_facets_look_away_from_its_axis)
+{
+  for (const double slant : {0., .4}) {
+    for (const std::size_t around : {16, 24, 48}) {
+      const Mesh mesh = rotated(tube_of_long_facets(around, slant), 5);
+      const auto field = estimate_curvatures(mesh, p::feature_angle(40));
+      std::vector<double> larger;
+      for (std::size_t s = 0; s < field.side.size(); ++s) {
+        const auto& side = field.side[s];
+        const Vertex v(field.sides.vertex[s]);
+        Eigen::Vector3d mean(0, 0, 0);
+        for (const auto f : mesh.faces_around_target(mesh.halfedge(v))) {
+          if (f == Mesh::null_face()) continue;
+          const auto n = CGAL::Polygon_mesh_processing::compute_face_normal(f, mesh);
+          mean += Eigen::Vector3d(n.x(), n.y(), n.z());
+        }
+        EXPECT_GE(side.normal.dot(mean.normalized()), .85) << around << " " << slant;
+        larger.push_back((std::max)(-side.min_curvature, side.max_curvature));
+      }
+      std::nth_element(larger.begin(), larger.begin() + larger.size() / 2, larger.end());
+      EXPECT_NEAR(larger[larger.size() / 2], .5, .15) << around << " " << slant;
+    }
   }
 }
 

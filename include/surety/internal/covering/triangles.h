@@ -8,6 +8,7 @@
 #include <surety/internal/linear.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -44,10 +45,16 @@ class Candidates
 public:
   static constexpr std::size_t most = 64;
 
-  void clear() { triangles_.clear(); }
+  void clear()
+  {
+    triangles_.clear();
+    slabs_.clear();
+  }
   void add(const Triangle& triangle)
   {
-    if (triangles_.size() < most) triangles_.push_back(triangle);
+    if (triangles_.size() == most) return;
+    triangles_.push_back(triangle);
+    slabs_.emplace_back(triangle);
   }
   std::size_t size() const { return triangles_.size(); }
   const Triangle& operator[](std::size_t i) const { return triangles_[i]; }
@@ -55,13 +62,11 @@ public:
   Nearness around(const Vector& p, double squared_limit) const
   {
     Nearness result;
+    const double limit = std::sqrt(squared_limit) * (1 + 1e-9);
     double least = std::numeric_limits<double>::infinity();
     for (Index i = 0; i < triangles_.size(); ++i) {
-      const Triangle& t = triangles_[i];
-      // Triangles whose planes are far are not within, and they are not nearest where others are.
-      const double height = t.normal.dot(p - t.a);
-      if (height * height > squared_limit * (1 + 1e-9) && height * height > least) continue;
-      const double d = t.squared_distance(p);
+      if (slabs_[i].is_far(p, limit)) continue;
+      const double d = triangles_[i].squared_distance(p);
       if (d <= squared_limit) result.within |= std::uint64_t(1) << i;
       if (d < least) {
         least = d;
@@ -72,7 +77,31 @@ public:
   }
 
 private:
+  /// The planes that bound a triangle: its own, and those through its edges and upright on it. Who
+  /// is far from one of them, on its outer side, is as far from the triangle.
+  struct Slab {
+    explicit Slab(const Triangle& t) : normal(t.normal), height(t.normal.dot(t.a))
+    {
+      const auto corner = t.corners();
+      for (int i = 0; i < 3; ++i) {
+        outwards[i] = unit((corner[(i + 1) % 3] - corner[i]).cross(t.normal));
+        reach[i] = outwards[i].dot(corner[i]);
+      }
+    }
+    bool is_far(const Vector& p, double limit) const
+    {
+      return std::abs(normal.dot(p) - height) > limit || outwards[0].dot(p) - reach[0] > limit
+          || outwards[1].dot(p) - reach[1] > limit || outwards[2].dot(p) - reach[2] > limit;
+    }
+
+    Vector normal;
+    double height;
+    std::array<Vector, 3> outwards;
+    std::array<double, 3> reach;
+  };
+
   std::vector<Triangle> triangles_;
+  std::vector<Slab> slabs_;
 };
 
 } // namespace surety::internal::covering

@@ -54,6 +54,7 @@ public:
     if (!(frame_.unit > smallest_unit) || graph_.normal[side].isZero(0)) return result;
     auto estimate = estimate_from_inside(side);
     if (!estimate) estimate = estimate_at(side);
+    if (estimate && turns_away(*estimate, side)) estimate = estimate_with_least_curvature(side);
     if (estimate) describe(*estimate, result);
     return result;
   }
@@ -144,6 +145,35 @@ private:
     read_samples();
     fit_ = Curvature_fit::three_coefficients;
     return three_coefficients(samples_);
+  }
+
+  /// Whether the fit leans away from the faces, and farther than the sides around do. On a tube of
+  /// long facets, which has no vertex between its rims, the samples nearby lie on a circle, and
+  /// they say nothing of the direction along the tube.
+  bool turns_away(const Estimate& estimate, Index side) const
+  {
+    double least_cosine = 0.9;
+    for (Index i = graph_.first[side]; i < graph_.first[side + 1]; ++i) {
+      const Index next = graph_.neighbour[i];
+      if (next != Sides::no_side)
+        least_cosine = (std::min)(least_cosine, graph_.normal[next].dot(graph_.normal[side]));
+    }
+    const Vector normal = unit(frame_.to_world(Principal_solver(estimate.jet).normal()));
+    return !(normal.dot(graph_.normal[side]) >= least_cosine);
+  }
+
+  /// What the samples do not tell is taken to be flat. Nothing if that leans away as well.
+  std::optional<Estimate> estimate_with_least_curvature(Index side)
+  {
+    frame_ = make_frame(graph_, side, graph_.normal[side]);
+    neighbourhood_.start(side, graph_.normal[side]);
+    while (neighbourhood_.rings() < 2 && neighbourhood_.add_ring()) {}
+    read_samples();
+    fit_ = Curvature_fit::underdetermined;
+    constexpr double certainty = 0.05;
+    const Estimate estimate = underdetermined_quadric(samples_, certainty);
+    if (turns_away(estimate, side)) return std::nullopt;
+    return estimate;
   }
 
   /// Of the samples.

@@ -87,8 +87,9 @@ inline std::optional<Estimate> three_coefficients(const Samples& samples)
 /// \brief The quadric with linear terms of least curvature among those that fit equally well.
 ///
 /// The plane comes first: only what it leaves is explained by curvature. Least is meant in the
-/// Frobenius norm of the second derivatives, which does not depend on the axes.
-inline Estimate underdetermined_quadric(const Samples& samples)
+/// Frobenius norm of the second derivatives, which does not depend on the axes. A bending of which
+/// the samples tell less than `certainty` of what they tell of another counts as not told.
+inline Estimate underdetermined_quadric(const Samples& samples, double certainty = 1e-7)
 {
   const int number = samples.size();
   using Linear = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, maximum_samples, 2>;
@@ -113,7 +114,7 @@ inline Estimate underdetermined_quadric(const Samples& samples)
   // Columns that the plane explains entirely leave rounding only.
   if (bent.norm() > 1e-7 * second.norm()) {
     Eigen::CompleteOrthogonalDecomposition<Second> quadric;
-    quadric.setThreshold(1e-7);
+    quadric.setThreshold(certainty);
     quadric.compute(bent);
     curvature = quadric.solve(rest);
   }

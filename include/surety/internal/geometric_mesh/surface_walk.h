@@ -25,15 +25,19 @@ class Surface_walk
 public:
   explicit Surface_walk(const Reference& reference) : reference_(reference) {}
 
-  Foot closest(const Vector& p, Index start) const
+  /// Ways that are all open.
+  struct Open {
+    bool over(Index /*edge*/) const { return true; }
+    bool around(Index /*vertex*/, Index /*from*/, Index /*to*/) const { return true; }
+  };
+
+  Foot closest(const Vector& p, Index start) const { return closest(p, start, Open()); }
+  /// The same, where the way from a face to the next leads `over` an edge or `around` a vertex that
+  /// lets it pass.
+  template <class Ways>
+  Foot closest(const Vector& p, Index start, const Ways& ways) const
   {
-    return closest(p, start, [](Index) { return true; });
-  }
-  /// The same, by way of faces that `may_enter(face)` admits.
-  template <class May_enter>
-  Foot closest(const Vector& p, Index start, const May_enter& may_enter) const
-  {
-    Foot best = foot_on(p, start);
+    Foot best = straight_walk(p, start, ways);
     for (bool closer = true; closer && !best.is_inside;) {
       closer = false;
       const Index from = best.face;
@@ -42,7 +46,7 @@ public:
         if (v == best.opposite) continue;
         for (const Index e : reference_.edges_at(v))
           for (const Index f : reference_.faces_of_edge(e)) {
-            if (f == none || f == from || f == best.face || !may_enter(f)) continue;
+            if (f == none || f == from || f == best.face || !ways.around(v, from, f)) continue;
             const Foot foot = foot_on(p, f);
             if (foot.squared_distance < best.squared_distance) best = foot, closer = true;
           }
@@ -60,6 +64,36 @@ public:
   }
 
 private:
+  /// Over the edge that bears the closest point, as long as that comes closer: most of the way, at
+  /// one face a step.
+  template <class Ways>
+  Foot straight_walk(const Vector& p, Index start, const Ways& ways) const
+  {
+    Foot best = foot_on(p, start);
+    while (!best.is_inside) {
+      const Index e = bearing_edge(best);
+      const auto& faces = reference_.faces_of_edge(e);
+      const Index next = faces[0] == best.face ? faces[1] : faces[0];
+      if (next == none || !ways.over(e)) break;
+      const Foot foot = foot_on(p, next);
+      if (!(foot.squared_distance < best.squared_distance)) break;
+      best = foot;
+    }
+    return best;
+  }
+
+  /// The edge that bears the closest point, or one of two where that is a vertex.
+  Index bearing_edge(const Foot& foot) const
+  {
+    const auto corner = reference_.vertices_of_face(foot.face);
+    const auto& edge = reference_.edges_of_face(foot.face);
+    // Edge i leads from corner i to the next.
+    for (int i = 0; i < 3; ++i)
+      if (foot.opposite == none ? corner[i] == foot.nearest : corner[(i + 2) % 3] == foot.opposite)
+        return edge[i];
+    return edge[0];
+  }
+
   Foot foot_on(const Vector& p, Index f) const
   {
     const auto corner = reference_.vertices_of_face(f);

@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <set>
@@ -292,6 +293,7 @@ private:
   }
 
   Index face_of_ground(Index e) const;
+  Index face_beside_curves(Index e) const;
   std::optional<Apex> middle_of(Index e) const;
   double mean_offset(Index h, const Apex& apex) const
   {
@@ -360,8 +362,8 @@ inline bool Editor::admits_normals(const Apex& apex)
   return admits;
 }
 
-/// A face of T on the same side of all curves as an edge of M: where a vertex of its faces stands
-/// that is on none, or, where all are on some, the one that the bound knows.
+/// A face of T on the same side of all curves as an edge of M that is none itself: where a vertex
+/// of its faces stands that is on none.
 inline Index Editor::face_of_ground(Index e) const
 {
   for (const Index h : {2 * e, 2 * e + 1}) {
@@ -369,8 +371,34 @@ inline Index Editor::face_of_ground(Index e) const
     for (const Index v : {mesh_.source(h), mesh_.target(mesh_.next(h))})
       if (stand_[v].edge == none && !normal_[v].isZero(0)) return stand_[v].face;
   }
-  const Index f = mesh_.face(2 * e);
-  return bound_.seed_of(mesh_.is_ghost_face(f) ? mesh_.face(2 * e + 1) : f);
+  return face_beside_curves(e);
+}
+
+/// The same where all of these vertices are on curves: of the faces that are known there, the one
+/// that looks most the way that the faces of M do.
+inline Index Editor::face_beside_curves(Index e) const
+{
+  Vector looks = Vector::Zero();
+  for (const Index h : {2 * e, 2 * e + 1}) {
+    if (mesh_.is_ghost_face(mesh_.face(h))) continue;
+    const Vector& p = mesh_.point(mesh_.source(h));
+    looks += (mesh_.point(mesh_.target(h)) - p).cross(mesh_.point(mesh_.target(mesh_.next(h))) - p);
+  }
+  Index best = none;
+  double most = -std::numeric_limits<double>::infinity();
+  const auto look_at = [&](Index f) {
+    if (f == none) return;
+    const double agreement = looks.dot(ground_.normal_of_face(f));
+    if (agreement > most) most = agreement, best = f;
+  };
+  for (const Index h : {2 * e, 2 * e + 1}) {
+    if (mesh_.is_ghost_face(mesh_.face(h))) continue;
+    look_at(bound_.seed_of(mesh_.face(h)));
+    for (const Index v : {mesh_.source(h), mesh_.target(mesh_.next(h))})
+      if (stand_[v].edge != none)
+        for (const Index f : ground_.faces_beside(stand_[v].edge)) look_at(f);
+  }
+  return best;
 }
 
 /// The point of the ground below the metric middle of an edge: where both halves are as long.

@@ -65,7 +65,6 @@ public:
     }
     for (std::uint32_t s = 0; s < field.number_of_sides(); ++s) normal_.push_back(field.normal(s));
     take_sizes(field);
-    find_sheets();
   }
 
   bool is_isotropic() const { return is_isotropic_; }
@@ -95,8 +94,7 @@ public:
   Standpoint nearest(const Vector& p, Index face) const
   {
     Standpoint result;
-    const Index sheet = sheet_[face];
-    result.face = walk_.closest(p, face, [&](Index f) { return sheet_[f] == sheet; }).face;
+    result.face = walk_.closest(p, face, Ways{*this}).face;
     const auto corner = reference_.vertices_of_face(result.face);
     const Vector& a = reference_.point(corner[0]);
     const auto [v, w]
@@ -203,30 +201,24 @@ public:
     return unit(sum);
   }
 
-private:
-  /// The parts that the curves divide T into.
-  void find_sheets()
+  /// Of a face of T.
+  Vector normal_of_face(Index f) const { return reference_.normal_of_face(f); }
+  /// The faces of T at an edge; none where there is no second one.
+  const std::array<Index, 2>& faces_beside(Index edge) const
   {
-    sheet_.assign(reference_.number_of_faces(), none);
-    std::vector<Index> stack;
-    for (Index f = 0; f < sheet_.size(); ++f) {
-      if (sheet_[f] != none) continue;
-      sheet_[f] = f;
-      stack.push_back(f);
-      while (!stack.empty()) {
-        const Index top = stack.back();
-        stack.pop_back();
-        for (const Index e : reference_.edges_of_face(top)) {
-          if (is_feature_[e]) continue;
-          for (const Index next : reference_.faces_of_edge(e)) {
-            if (next == none || sheet_[next] != none) continue;
-            sheet_[next] = f;
-            stack.push_back(next);
-          }
-        }
-      }
-    }
+    return reference_.faces_of_edge(edge);
   }
+
+private:
+  /// Those that do not cross a curve.
+  struct Ways {
+    bool over(Index edge) const { return !ground.is_feature_[edge]; }
+    bool around(Index vertex, Index from, Index to) const
+    {
+      return ground.side_at(vertex, from) == ground.side_at(vertex, to);
+    }
+    const Ground& ground;
+  };
 
   void take_sizes(const Metric_field& field)
   {
@@ -249,12 +241,13 @@ private:
     }
   }
 
-  /// Of the side of a face at one of its corners.
-  const Vector& normal_at(Index v, Index face) const
+  /// The side of a vertex that a face there belongs to.
+  Index side_at(Index v, Index face) const
   {
     const auto corner = reference_.vertices_of_face(face);
-    return normal_[sides_[face][corner[0] == v ? 0 : corner[1] == v ? 1 : 2]];
+    return sides_[face][corner[0] == v ? 0 : corner[1] == v ? 1 : 2];
   }
+  const Vector& normal_at(Index v, Index face) const { return normal_[side_at(v, face)]; }
 
   /// Both sides of a curve are to be pleased.
   void respect_background_on_curve(const Standpoint& at, Local_metric& result) const
@@ -312,7 +305,6 @@ private:
   const Background_metric* background_;
   double scale_;
   bool is_isotropic_;
-  std::vector<Index> sheet_;                ///< of each face: what curves divide T into
   std::vector<std::array<Index, 3>> sides_; ///< of the field, by corner of the reference's faces
   std::vector<std::array<int, 3>> support_corner_;         ///< the support's order of these corners
   std::vector<Index> face_name_, edge_name_, vertex_name_; ///< in the user's mesh
