@@ -99,6 +99,9 @@ public:
   /// Moves a vertex along the normal, to where its faces are as far on one side of T as on the
   /// other: room for what comes next.
   bool centre(Index v);
+  /// Makes the worst face around a bad one better, by the first operation that does: a flip, a
+  /// relocation of a corner, a collapse.
+  bool mend(Index f);
 
 private:
   struct Apex {
@@ -292,14 +295,24 @@ private:
     ++operations_.relocations;
   }
 
-  Index face_of_ground(Index e) const;
-  Index face_beside_curves(Index e) const;
+  Standpoint nearest_below(const Vector& p, Index e) const;
+  Standpoint nearest_from_known_faces(const Vector& p, Index e) const;
   std::optional<Apex> middle_of(Index e) const;
   double mean_offset(Index h, const Apex& apex) const
   {
     if (apex.stand.edge != none) return 0;
     return (offset_[mesh_.source(h)] + offset_[mesh_.target(h)]) / 2;
   }
+  bool is_remedy(const Apex& apex) const
+  {
+    constexpr double share = .95;
+    return worst_new_quality(apex) < share * worst_old_quality();
+  }
+  bool mend_by_flip(Index e);
+  bool mend_by_relocation(Index v, Index f);
+  bool mend_by_collapse(Index h);
+  void make_flip(Index e);
+  void make_collapse(Index h);
   Verdict collapse_into(Index h, double longest);
   Verdict collapse_to_better_place(Index h, double longest);
   bool has_long_edge(const Apex& apex, double longest) const;
@@ -362,41 +375,50 @@ inline bool Editor::admits_normals(const Apex& apex)
   return admits;
 }
 
-/// A face of T on the same side of all curves as an edge of M that is none itself: where a vertex
-/// of its faces stands that is on none.
-inline Index Editor::face_of_ground(Index e) const
+/// The point of T nearest to one of an edge of M that is on no curve. The walk starts where a
+/// vertex of its faces stands that is on none; where that ends too far away, curves bar the way,
+/// and other starts may do better.
+inline Standpoint Editor::nearest_below(const Vector& p, Index e) const
 {
   for (const Index h : {2 * e, 2 * e + 1}) {
     if (mesh_.is_ghost_face(mesh_.face(h))) continue;
-    for (const Index v : {mesh_.source(h), mesh_.target(mesh_.next(h))})
-      if (stand_[v].edge == none && !normal_[v].isZero(0)) return stand_[v].face;
+    for (const Index v : {mesh_.source(h), mesh_.target(mesh_.next(h))}) {
+      if (stand_[v].edge != none || normal_[v].isZero(0)) continue;
+      const Standpoint foot = ground_.nearest(p, stand_[v].face);
+      if ((ground_.point(foot) - p).norm() <= bound_.tolerance()) return foot;
+    }
   }
-  return face_beside_curves(e);
+  return nearest_from_known_faces(p, e);
 }
 
-/// The same where all of these vertices are on curves: of the faces that are known there, the one
-/// that looks most the way that the faces of M do.
-inline Index Editor::face_beside_curves(Index e) const
+/// Of the faces of T that are known around an edge, from those that look the way that its faces do.
+inline Standpoint Editor::nearest_from_known_faces(const Vector& p, Index e) const
 {
   Vector looks = Vector::Zero();
+  std::vector<Index> known;
   for (const Index h : {2 * e, 2 * e + 1}) {
     if (mesh_.is_ghost_face(mesh_.face(h))) continue;
-    const Vector& p = mesh_.point(mesh_.source(h));
-    looks += (mesh_.point(mesh_.target(h)) - p).cross(mesh_.point(mesh_.target(mesh_.next(h))) - p);
+    const auto corner = mesh_.vertices_of(mesh_.face(h));
+    looks += (mesh_.point(corner[1]) - mesh_.point(corner[0]))
+                 .cross(mesh_.point(corner[2]) - mesh_.point(corner[0]));
+    known.push_back(bound_.seed_of(mesh_.face(h)));
+    for (const Index v : corner) {
+      if (stand_[v].edge == none && !normal_[v].isZero(0)) known.push_back(stand_[v].face);
+      if (stand_[v].edge == none) continue;
+      for (const Index f : ground_.faces_beside(stand_[v].edge))
+        if (f != none) known.push_back(f);
+    }
   }
-  Index best = none;
-  double most = -std::numeric_limits<double>::infinity();
-  const auto look_at = [&](Index f) {
-    if (f == none) return;
-    const double agreement = looks.dot(ground_.normal_of_face(f));
-    if (agreement > most) most = agreement, best = f;
-  };
-  for (const Index h : {2 * e, 2 * e + 1}) {
-    if (mesh_.is_ghost_face(mesh_.face(h))) continue;
-    look_at(bound_.seed_of(mesh_.face(h)));
-    for (const Index v : {mesh_.source(h), mesh_.target(mesh_.next(h))})
-      if (stand_[v].edge != none)
-        for (const Index f : ground_.faces_beside(stand_[v].edge)) look_at(f);
+  constexpr double agrees = .7; // what a face beside a ridge does not
+  looks = unit(looks);
+  double most = -1, least = std::numeric_limits<double>::infinity();
+  for (const Index f : known) most = std::max(most, looks.dot(ground_.normal_of_face(f)));
+  Standpoint best;
+  for (const Index f : known) {
+    if (looks.dot(ground_.normal_of_face(f)) < std::min(most, agrees)) continue;
+    const Standpoint foot = ground_.nearest(p, f);
+    const double distance = (ground_.point(foot) - p).squaredNorm();
+    if (distance < least) least = distance, best = foot;
   }
   return best;
 }
@@ -418,12 +440,12 @@ inline std::optional<Editor::Apex> Editor::middle_of(Index e) const
     if (curve_[e] == none) return std::nullopt;
     return apex_at(ground_.nearest_on_curve(middle, curve_[e]), middle, share);
   }
-  return apex_at(ground_.nearest(middle, face_of_ground(e)), middle, share);
+  return apex_at(nearest_below(middle, e), middle, share);
 }
 
 inline bool Editor::split(Index e)
 {
-  constexpr double longest_half = .8, cap = 8;
+  constexpr double longest_half = .85, cap = 8;
   if (is_whole(e)) return false;
   // A flat face with a longer edge is mended there first: else caps are split for ever.
   for (const Index h : {2 * e, 2 * e + 1}) {
@@ -441,11 +463,13 @@ inline bool Editor::split(Index e)
   const Vector middle = apex->point;
   const Vector above = apex_above(apex->stand, apex->share, mean_offset(2 * e, *apex)).point;
   const Index a = mesh_.source(2 * e), b = mesh_.target(2 * e);
-  const double whole = length(e);
+  const double whole = (mesh_.point(b) - mesh_.point(a)).norm();
   Verdict verdict = Verdict::shape;
   for (const double share : {0., .5, .75, 1.}) {
     apex->point = above + share * (middle - above);
-    if (std::max(length(a, *apex), length(b, *apex)) > longest_half * whole) {
+    // Metric lengths may add up to more than the whole, where sizes are small in the middle.
+    if (std::max((apex->point - mesh_.point(a)).norm(), (apex->point - mesh_.point(b)).norm())
+        > longest_half * whole) {
       verdict = Verdict::shape;
       continue;
     }
@@ -518,12 +542,16 @@ inline Verdict Editor::collapse_into(Index h, double longest)
   if (verdict == Verdict::accept && (has_long_edge(apex, longest) || refuses_shape(apex)))
     verdict = Verdict::shape;
   if (verdict == Verdict::accept) verdict = check(apex);
-  if (verdict != Verdict::accept) return verdict;
+  if (verdict == Verdict::accept) make_collapse(h);
+  return verdict;
+}
+
+inline void Editor::make_collapse(Index h)
+{
   bound_.commit(disc_);
   mesh_.collapse(h);
   if (guard_) guard_->commit(disc_);
   ++operations_.collapses;
-  return verdict;
 }
 
 /// Both ends go, to a point of the support: the middle between the two, or nearer to Q.
@@ -608,11 +636,16 @@ inline bool Editor::flip(Index e)
   if (worst_after > good_enough && worst_after > worst_before) return false;
   const Verdict verdict = check(apex);
   if (verdict != Verdict::accept) return refuse(verdict);
+  make_flip(e);
+  return true;
+}
+
+inline void Editor::make_flip(Index e)
+{
   bound_.commit(disc_);
   mesh_.flip(2 * e);
   if (guard_) guard_->commit(disc_);
   ++operations_.flips;
-  return true;
 }
 
 inline bool Editor::relocate(Index v)
@@ -681,5 +714,7 @@ inline bool Editor::centre(Index v)
 }
 
 } // namespace surety::internal::unit_mesh
+
+#include <surety/internal/unit_mesh/mend.h>
 
 #endif // SURETY_INTERNAL_UNIT_MESH_EDITOR_H

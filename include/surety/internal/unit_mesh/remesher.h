@@ -78,13 +78,15 @@ public:
       relocate();
     }
     for (int round = 0; round < 4; ++round) {
+      mend();
       flip();
       relocate();
     }
+    mend();
   }
 
 private:
-  using Entry = std::pair<double, Index>; ///< length and edge
+  using Entry = std::pair<double, Index>; ///< length and edge, or quality and face
 
   bool may_go_on()
   {
@@ -184,6 +186,27 @@ private:
   std::size_t relocate()
   {
     return for_each_vertex([this](Index v) { return editor_.relocate(v); });
+  }
+  /// Worst first.
+  std::size_t mend()
+  {
+    constexpr double good_enough = 1.75;
+    std::vector<Entry> faces;
+    for (Index f = 0; f < editor_.mesh().number_of_real_faces(); ++f) {
+      if (!editor_.mesh().is_live_face(f)) continue;
+      const double quality = editor_.quality(f);
+      if (quality > good_enough) faces.emplace_back(quality, f);
+    }
+    std::sort(faces.begin(), faces.end(), [](const Entry& a, const Entry& b) {
+      return a.first > b.first || (a.first == b.first && a.second < b.second);
+    });
+    std::size_t done = 0;
+    for (const auto& [quality, f] : faces) {
+      if (!may_go_on()) break;
+      if (editor_.mesh().is_live_face(f) && editor_.quality(f) > good_enough && editor_.mend(f))
+        ++done;
+    }
+    return done;
   }
   std::size_t centre()
   {
