@@ -95,10 +95,9 @@ public:
   /// to go, puts the other in a better place. Says why it could not.
   Verdict collapse(Index e, double longest);
   bool flip(Index e);
+  /// Moves a vertex to where its faces are better and its edges nearer to one; with free placement
+  /// also along the normal, towards where its faces are as far on one side of T as on the other.
   bool relocate(Index v);
-  /// Moves a vertex along the normal, to where its faces are as far on one side of T as on the
-  /// other: room for what comes next.
-  bool centre(Index v);
   /// Makes the worst face around a bad one better, by the first operation that does: a flip, a
   /// relocation of a corner, a collapse.
   bool mend(Index f);
@@ -680,15 +679,17 @@ inline bool Editor::relocate(Index v)
     aim /= number;
   }
 
-  constexpr double gain = 1e-3;
+  // Not all of what evens the gaps on both sides of T, for each face has other vertices, too.
+  constexpr double gain = 3e-3, evened = .4;
   const double before = energy(from);
   Verdict verdict = Verdict::accept;
   for (const double step : {1., .4, .16}) {
     const Vector target = from.point + step * (aim - from.point);
     const Standpoint stand = is_on_curve ? ground_.nearest_on_curve(target, stand_[v].edge)
                                          : ground_.nearest(target, stand_[v].face);
-    const Apex apex = apex_above(stand, share_[v], offset_[v]);
+    Apex apex = apex_above(stand, share_[v], offset_[v]);
     if (!(energy(apex) < (1 - gain) * before)) continue;
+    if (places_freely_ && !is_on_curve) shift(apex, evened);
     verdict = check(apex);
     if (verdict != Verdict::accept) continue;
     move_apex(apex);
@@ -696,21 +697,6 @@ inline bool Editor::relocate(Index v)
   }
   if (verdict != Verdict::accept) operations_.refuse(verdict);
   return false;
-}
-
-inline bool Editor::centre(Index v)
-{
-  if (!places_freely_ || mesh_.is_on_feature(v) || mesh_.is_fixed(v)) return false;
-  make_relocation_disc(mesh_, v, disc_);
-  Apex apex = apex_of(v);
-  shift(apex, .4);
-  // Not worth a check.
-  if (std::abs(apex.offset - offset_[v]) < .02 * bound_.tolerance()) return false;
-  if (refuses_shape(apex)) return false;
-  const Verdict verdict = check(apex);
-  if (verdict != Verdict::accept) return refuse(verdict);
-  move_apex(apex);
-  return true;
 }
 
 } // namespace surety::internal::unit_mesh

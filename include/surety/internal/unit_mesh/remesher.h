@@ -47,8 +47,8 @@ public:
       const std::size_t splits = split(2);
       collapse(.3, 2);
       flip();
-      relocate();
       if (splits == 0) break;
+      relocate();
     }
   }
 
@@ -60,7 +60,6 @@ public:
     for (int sweep = 0; sweep < 3; ++sweep)
       if (flip() == 0) break;
     relocate();
-    for (int sweep = 0; sweep < 2; ++sweep) centre();
     return splits + collapses;
   }
 
@@ -69,7 +68,6 @@ public:
     for (int round = 0; round < 4; ++round) {
       flip();
       relocate();
-      centre();
     }
     for (int round = 0; round < 2; ++round) {
       collapse(shortest_unit, longest_unit);
@@ -190,7 +188,7 @@ private:
   /// Worst first.
   std::size_t mend()
   {
-    constexpr double good_enough = 1.75;
+    constexpr double good_enough = 1.6;
     std::vector<Entry> faces;
     for (Index f = 0; f < editor_.mesh().number_of_real_faces(); ++f) {
       if (!editor_.mesh().is_live_face(f)) continue;
@@ -207,10 +205,6 @@ private:
         ++done;
     }
     return done;
-  }
-  std::size_t centre()
-  {
-    return for_each_vertex([this](Index v) { return editor_.centre(v); });
   }
 
   Editor& editor_;
