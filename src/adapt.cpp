@@ -4,6 +4,7 @@
 // appears on disk before everything has succeeded.
 #include "commands.h"
 #include "controls.h"
+#include "html_report.h"
 #include "interruption.h"
 #include "length.h"
 #include "library_adaptation.h"
@@ -94,7 +95,10 @@ void Adapt::announce_outputs()
             + "' cannot be written; give a name that ends in .off, .obj, .ply, .stl or .vtp");
   }
   files_->announce(output);
-  if (!report.empty()) files_->announce(report);
+  if (!report.empty()) {
+    require_possible_report(report);
+    files_->announce(report);
+  }
 }
 
 void Adapt::read()
@@ -210,18 +214,11 @@ void Adapt::write()
   });
   watch_.lap("write");
   if (!report.empty())
-    files_->write(report, [&](std::ostream& stream) { stream << to_text(describe()); });
+    files_->write(report, [&](std::ostream& stream) {
+      write_report(stream, report, describe(), {input_mesh_, output_mesh_, deviation});
+    });
   stop_if_interrupted();
   files_->commit();
-}
-
-Json describe_fit(const Metric_fit& fit)
-{
-  return {
-      {"unit_edges", fit.unit_edges},
-      {"efficiency_index", fit.efficiency_index},
-      {"Q_avg", fit.Q_avg},
-      {"Q_max", fit.Q_max}};
 }
 
 Json Adapt::describe() const
@@ -236,8 +233,8 @@ Json Adapt::describe() const
   json["output"] = to_json(output, after_);
   json["output"]["unit_edges"] = made.fit.unit_edges;
   json["output"]["efficiency_index"] = made.fit.efficiency_index;
-  json["output"]["metric"] = describe_fit(made.fit);
-  json["output"]["given_metric"] = describe_fit(made.fit_of_given);
+  json["output"]["metric"] = to_json(made.fit);
+  json["output"]["given_metric"] = to_json(made.fit_of_given);
   Json& certificate = json["certificate"];
   certificate["tolerance"] = length_;
   certificate["bound"] = made.certificate.bound();
@@ -386,7 +383,9 @@ void add_adapt(CLI::App& program, Exit_status&)
       "do not prevent new self-intersections");
   command->add_flag(
       "--triangulate", adapt->reading.triangulate, "split faces with more than three corners");
-  command->add_option("--report", adapt->report, "write all figures to this JSON file");
+  command->add_option(
+      "--report", adapt->report,
+      "write all figures to this JSON file, or with pictures to this .html file");
   command->add_flag("--no-verify", adapt->skips_verification, "leave the independent check out");
   command->add_flag("--quiet", adapt->is_quiet, "print nothing but errors");
   command->footer(

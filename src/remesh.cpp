@@ -4,6 +4,7 @@
 // before everything has succeeded.
 #include "commands.h"
 #include "controls.h"
+#include "html_report.h"
 #include "interruption.h"
 #include "length.h"
 #include "library_checks.h"
@@ -87,7 +88,10 @@ void Remesh::announce_outputs()
               "or .meshb");
   }
   files_->announce(output);
-  if (!report.empty()) files_->announce(report);
+  if (!report.empty()) {
+    require_possible_report(report);
+    files_->announce(report);
+  }
 }
 
 void Remesh::read()
@@ -184,38 +188,11 @@ void Remesh::write()
   });
   watch_.lap("write");
   if (!report.empty())
-    files_->write(report, [&](std::ostream& stream) { stream << to_text(describe()); });
+    files_->write(report, [&](std::ostream& stream) {
+      write_report(stream, report, describe(), {input_mesh_, output_mesh_, deviation});
+    });
   stop_if_interrupted();
   files_->commit();
-}
-
-Json histogram(const double* limits, std::size_t number, const std::size_t* counts)
-{
-  Json result = Json::array();
-  for (std::size_t i = 0; i <= number; ++i) {
-    Json bin;
-    if (i < number) bin["up_to"] = limits[i];
-    bin["number"] = counts[i];
-    result.push_back(bin);
-  }
-  return result;
-}
-
-Json describe_fit(const Metric_fit& fit)
-{
-  return {
-      {"unit_edges", fit.unit_edges},
-      {"efficiency_index", fit.efficiency_index},
-      {"Q_avg", fit.Q_avg},
-      {"Q_max", fit.Q_max},
-      {"lengths",
-       histogram(
-           Metric_fit::length_limits.data(), Metric_fit::length_limits.size(),
-           fit.length_histogram.data())},
-      {"qualities",
-       histogram(
-           Metric_fit::quality_limits.data(), Metric_fit::quality_limits.size(),
-           fit.quality_histogram.data())}};
 }
 
 Json Remesh::describe_output() const
@@ -223,8 +200,8 @@ Json Remesh::describe_output() const
   Json json = to_json(output, after_);
   json["unit_edges"] = result_->fit.unit_edges;
   json["efficiency_index"] = result_->fit.efficiency_index;
-  json["metric"] = describe_fit(result_->fit);
-  json["given_metric"] = describe_fit(result_->fit_of_given);
+  json["metric"] = to_json(result_->fit);
+  json["given_metric"] = to_json(result_->fit_of_given);
   return json;
 }
 
@@ -368,7 +345,9 @@ void add_remesh(CLI::App& program, Exit_status&)
       "do not prevent new self-intersections");
   command->add_flag(
       "--triangulate", remesh->reading.triangulate, "split faces with more than three corners");
-  command->add_option("--report", remesh->report, "write all figures to this JSON file");
+  command->add_option(
+      "--report", remesh->report,
+      "write all figures to this JSON file, or with pictures to this .html file");
   command->add_flag("--no-verify", remesh->skips_verification, "leave the independent check out");
   command->add_flag("--quiet", remesh->is_quiet, "print nothing but errors");
   command->footer("Example: surety remesh part.stl -o fe.off -t 0.1% --report fe.json");

@@ -52,6 +52,35 @@ Json to_json(const Operations& operations)
       {"refused", refused}};
 }
 
+Json histogram(const double* limits, std::size_t number, const std::size_t* counts)
+{
+  Json result = Json::array();
+  for (std::size_t i = 0; i <= number; ++i) {
+    Json bin;
+    if (i < number) bin["up_to"] = limits[i];
+    bin["number"] = counts[i];
+    result.push_back(bin);
+  }
+  return result;
+}
+
+Json to_json(const Metric_fit& fit)
+{
+  return {
+      {"unit_edges", fit.unit_edges},
+      {"efficiency_index", fit.efficiency_index},
+      {"Q_avg", fit.Q_avg},
+      {"Q_max", fit.Q_max},
+      {"lengths",
+       histogram(
+           Metric_fit::length_limits.data(), Metric_fit::length_limits.size(),
+           fit.length_histogram.data())},
+      {"qualities",
+       histogram(
+           Metric_fit::quality_limits.data(), Metric_fit::quality_limits.size(),
+           fit.quality_histogram.data())}};
+}
+
 std::string to_text(const Json& report)
 {
   // A file name need not be UTF-8; JSON must be.

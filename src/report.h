@@ -4,6 +4,7 @@
 #ifndef SURETY_TOOL_REPORT_H
 #define SURETY_TOOL_REPORT_H
 
+#include <surety/metric_fit.h>
 #include <surety/operations.h>
 #include <surety/statistics.h>
 
@@ -26,6 +27,12 @@ Json to_json(const std::string& file, const Mesh_statistics& statistics);
 
 /// Operations performed, and refused by reason.
 Json to_json(const Operations& operations);
+
+/// How many values lie in each bin: `number` upper limits, and one bin more for what is above.
+Json histogram(const double* limits, std::size_t number, const std::size_t* counts);
+
+/// How well a mesh fits a metric.
+Json to_json(const Metric_fit& fit);
 
 /// The report as it is written to a file.
 std::string to_text(const Json& report);

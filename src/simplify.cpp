@@ -4,6 +4,7 @@
 // everything has succeeded.
 #include "commands.h"
 #include "controls.h"
+#include "html_report.h"
 #include "library_checks.h"
 #include "library_description.h"
 #include "library_simplification.h"
@@ -109,7 +110,10 @@ void Simplify::announce_outputs()
               "or .meshb");
   }
   files_.announce(arguments_.output);
-  if (!arguments_.report.empty()) files_.announce(arguments_.report);
+  if (!arguments_.report.empty()) {
+    require_possible_report(arguments_.report);
+    files_.announce(arguments_.report);
+  }
   if (arguments_.certificate.empty()) return;
   if (arguments_.controls.deviation_bound == Deviation_bound::accumulated) {
     throw Failure(
@@ -243,7 +247,9 @@ void Simplify::write()
   }
   lap("write");
   if (!arguments_.report.empty()) {
-    files_.write(arguments_.report, [&](std::ostream& stream) { stream << to_text(report()); });
+    files_.write(arguments_.report, [&](std::ostream& stream) {
+      write_report(stream, arguments_.report, report(), {input_, output_, deviation});
+    });
   }
   stop_if_interrupted();
   files_.commit();
@@ -338,7 +344,9 @@ void add_simplify(CLI::App& program, Exit_status&)
       "--triangulate", arguments->reading.triangulate, "split faces with more than three corners");
   command->add_option(
       "--certificate", arguments->certificate, "write the proof to this file, for surety verify");
-  command->add_option("--report", arguments->report, "write all figures to this JSON file");
+  command->add_option(
+      "--report", arguments->report,
+      "write all figures to this JSON file, or with pictures to this .html file");
   command->add_flag(
       "--no-verify", arguments->skips_verification, "leave the independent checks out");
   command->add_flag("--quiet", arguments->is_quiet, "print nothing but errors");
