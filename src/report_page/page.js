@@ -18,7 +18,12 @@ function element(parent, tag, text, name) {
   parent.appendChild(result);
   return result;
 }
-function words(name) { return name.replace(/_/g, ' '); }
+const labels = {
+  euler: 'Euler characteristic', Q_max: 'worst quality Q', Q_avg: 'mean quality Q',
+  Q_le_2: 'faces with Q \u2264 2, %', angle_min: 'smallest angle, \u00b0',
+  angle_max: 'largest angle, \u00b0', curve_bound: 'bound of ridges and borders',
+  largest_normal_deviation: 'largest turn of a normal, \u00b0'};
+function words(name) { return labels[name] || name.replace(/_/g, ' '); }
 function show(value) {
   if (typeof value === 'boolean') return value ? 'yes' : 'no';
   if (typeof value === 'string') return value === '' ? 'none' : value;
@@ -26,6 +31,13 @@ function show(value) {
   if (Number.isInteger(value)) return value.toLocaleString('en');
   const size = Math.abs(value);
   return size < 1e-3 || size >= 1e6 ? value.toExponential(3) : String(Number(value.toPrecision(5)));
+}
+// An upper bound that is shown with fewer digits must stay one.
+function showBound(value) {
+  if (!(value > 0)) return show(value);
+  const unit = Math.pow(10, Math.floor(Math.log10(value)) - 4);
+  const rounded = Number(value.toPrecision(5));
+  return show(rounded < value ? rounded + unit : rounded);
 }
 function fileName(path) { return path.replace(/^.*[\\/]/, ''); }
 
@@ -75,8 +87,8 @@ function showHead() {
   const faces = report.output.faces, before = report.input.faces;
   tile(show(before) + ' \u2192 ' + show(faces), 'faces: ' + show(100 * faces / before)
     + ' % of the input');
-  tile(show(certificate.bound), 'proven distance, either way');
-  tile(show(100 * certificate.bound / report.input.diagonal) + ' %',
+  tile(showBound(certificate.bound), 'proven distance, either way');
+  tile(showBound(100 * certificate.bound / report.input.diagonal) + ' %',
     'of the diagonal; ' + show(100 * certificate.tolerance / report.input.diagonal)
     + ' % allowed');
   tile(show(report.output.Q_avg), 'mean quality (1 is best), was ' + show(report.input.Q_avg));
@@ -91,13 +103,14 @@ function showCertificate() {
   const share = certificate.bound / certificate.tolerance;
   const meter = element(element(parent, 'div', undefined, 'meter'), 'i');
   meter.style.width = Math.min(100, 100 * share) + '%';
-  const rows = [['tolerance', show(certificate.tolerance)], ['bound', show(certificate.bound)],
+  const rows = [['tolerance', show(certificate.tolerance)], ['bound', showBound(certificate.bound)],
     ['bound / tolerance', show(Number(share.toPrecision(4)))], ['kind of bound', certificate.policy],
     ['holds', show(certificate.holds)]];
   table(parent, null, rows);
   checks.forEach(([name, text]) => {
     element(parent, 'h3', 'Checked independently: ' + text);
-    table(parent, null, Object.entries(certificate[name]).map(([k, v]) => [words(k), show(v)]));
+    table(parent, null, Object.entries(certificate[name]).map(
+      ([k, v]) => [words(k), /bound/.test(k) ? showBound(v) : show(v)]));
   });
   if (!checks.length) element(parent, 'h3', 'Not checked independently, as was asked for.');
 }
@@ -110,7 +123,7 @@ function showMeshes() {
     names.map(name => [words(name), show(report.input[name]), show(report.output[name])]));
   if (report.features)
     element(parent, 'p', show(report.features.ridges) + ' ridge edges and '
-      + show(report.features.corners) + ' corners of the input were kept.', 'hint');
+      + show(report.features.corners) + ' corners of the input were kept.', 'below');
 }
 
 // Bars: the share of each bin, one or two series.
