@@ -32,12 +32,16 @@ function show(value) {
   const size = Math.abs(value);
   return size < 1e-3 || size >= 1e6 ? value.toExponential(3) : String(Number(value.toPrecision(5)));
 }
-// An upper bound that is shown with fewer digits must stay one.
-function showBound(value) {
-  if (!(value > 0)) return show(value);
-  const unit = Math.pow(10, Math.floor(Math.log10(value)) - 4);
-  const rounded = Number(value.toPrecision(5));
-  return show(rounded < value ? rounded + unit : rounded);
+// An upper bound that is shown with fewer digits must stay one, and below its limit if it is.
+function showBound(value, limit) {
+  for (let digits = 5; value > 0 && digits < 17; ++digits) {
+    let rounded = Number(value.toPrecision(digits));
+    if (rounded < value)
+      rounded = Number((value + Math.pow(10, Math.floor(Math.log10(value)) + 1 - digits))
+        .toPrecision(digits));
+    if (rounded <= limit || value > limit) return String(rounded);
+  }
+  return String(value);
 }
 function fileName(path) { return path.replace(/^.*[\\/]/, ''); }
 
@@ -87,8 +91,9 @@ function showHead() {
   const faces = report.output.faces, before = report.input.faces;
   tile(show(before) + ' \u2192 ' + show(faces), 'faces: ' + show(100 * faces / before)
     + ' % of the input');
-  tile(showBound(certificate.bound), 'proven distance, either way');
-  tile(showBound(100 * certificate.bound / report.input.diagonal) + ' %',
+  tile(showBound(certificate.bound, certificate.tolerance), 'proven distance, either way');
+  tile(showBound(100 * certificate.bound / report.input.diagonal,
+    100 * certificate.tolerance / report.input.diagonal) + ' %',
     'of the diagonal; ' + show(100 * certificate.tolerance / report.input.diagonal)
     + ' % allowed');
   tile(show(report.output.Q_avg), 'mean quality (1 is best), was ' + show(report.input.Q_avg));
@@ -103,14 +108,14 @@ function showCertificate() {
   const share = certificate.bound / certificate.tolerance;
   const meter = element(element(parent, 'div', undefined, 'meter'), 'i');
   meter.style.width = Math.min(100, 100 * share) + '%';
-  const rows = [['tolerance', show(certificate.tolerance)], ['bound', showBound(certificate.bound)],
+  const rows = [['tolerance', show(certificate.tolerance)], ['bound', showBound(certificate.bound, certificate.tolerance)],
     ['bound / tolerance', show(Number(share.toPrecision(4)))], ['kind of bound', certificate.policy],
     ['holds', show(certificate.holds)]];
   table(parent, null, rows);
   checks.forEach(([name, text]) => {
     element(parent, 'h3', 'Checked independently: ' + text);
     table(parent, null, Object.entries(certificate[name]).map(
-      ([k, v]) => [words(k), /bound/.test(k) ? showBound(v) : show(v)]));
+      ([k, v]) => [words(k), /bound/.test(k) ? showBound(v, certificate.tolerance) : show(v)]));
   });
   if (!checks.length) element(parent, 'h3', 'Not checked independently, as was asked for.');
 }
@@ -152,9 +157,8 @@ function drawBars(parent, series) {
     draw(rectangle, 'title', {}, series[s].name + ': ' + show(series[s].bins[i].number) + ', '
       + (100 * value).toFixed(1) + ' %');
     if (value > 0 && s === series.length - 1)
-      draw(svg, 'text', {x: (i + .5) * slot, y: height - Math.max(...shares.map(t => t[i]))
-        / largest * (height - 14) - 4, 'text-anchor': 'middle'}, (100 * value).toFixed(
-        value < .1 ? 1 : 0) + ' %');
+      draw(svg, 'text', {x: i * slot + slot * .1 + (s + .5) * bar, y: height - high - 4,
+        'text-anchor': 'middle'}, (100 * value).toFixed(value < .1 ? 1 : 0) + ' %');
   }));
   draw(svg, 'line', {x1: 0, x2: width, y1: height + .5, y2: height + .5, class: 'axis'});
   bins.forEach((bin, i) => {
