@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <string_view>
 #include <utility>
@@ -22,8 +23,9 @@
 namespace surety::tool {
 namespace {
 
-/// Beyond this the input is shown simplified, so that pages stay below 3 MB.
-constexpr std::size_t most_faces_of_input = 60000;
+/// An input with more faces is shown by fewer: with 100,000 faces pages stay below 3 MB, even where
+/// the result has as many.
+constexpr std::size_t most_faces_of_input = 60000, faces_of_large_input = 30000;
 
 /// Faces that are worse all have the last colour.
 constexpr double worst_shown_quality = 4;
@@ -107,7 +109,9 @@ std::string number_of_faces(const Mesh& mesh)
 Json describe_input(const Mesh& mesh, const Field_maker& fields)
 {
   const std::vector<double> qualities = face_qualities(mesh);
-  const auto simplified = simplified_for_display(mesh, most_faces_of_input);
+  std::optional<Display_mesh> simplified;
+  if (mesh.number_of_faces() > most_faces_of_input)
+    simplified = simplified_for_display(mesh, faces_of_large_input);
   Json view = simplified ? describe_shape(simplified->mesh, {})
                          : describe_shape(mesh, fields.of_input(qualities));
   view["title"] = "before";

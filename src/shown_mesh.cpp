@@ -77,9 +77,8 @@ Json describe_field(const Shown_field& field)
 
 } // namespace
 
-std::optional<Display_mesh> simplified_for_display(const Mesh& mesh, std::size_t faces)
+Display_mesh simplified_for_display(const Mesh& mesh, std::size_t faces)
 {
-  if (mesh.number_of_faces() <= faces) return {};
   Display_mesh result{mesh, 0};
   Controls controls;
   controls.target_faces = faces;

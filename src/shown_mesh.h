@@ -8,7 +8,6 @@
 #include "report.h"
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +26,8 @@ struct Display_mesh {
   double bound;
 };
 
-/// The mesh with at most this number of faces; nothing if it has no more anyway.
-std::optional<Display_mesh> simplified_for_display(const Mesh& mesh, std::size_t faces);
+/// The mesh with about this number of faces, or as many as its topology needs.
+Display_mesh simplified_for_display(const Mesh& mesh, std::size_t faces);
 
 /// By face: the quality Q.
 std::vector<double> face_qualities(const Mesh& mesh);

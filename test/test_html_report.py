@@ -115,9 +115,9 @@ class Html_report(unittest.TestCase):
         self.assertEqual(done.returncode, status, done.stderr)
         return done
 
-    def page(self, command="simplify", *arguments, file="in.off"):
-        self.surety(command, file, "-o", "out.off", "-t", "1%", "--report", "r.html", "--quiet",
-                    *arguments)
+    def page(self, command="simplify", *arguments, file="in.off", tolerance="1%"):
+        self.surety(command, file, "-o", "out.off", "-t", tolerance, "--report", "r.html",
+                    "--quiet", *arguments)
         return Page((self.folder / "r.html").read_text())
 
     def browse(self, file, *arguments):
@@ -187,11 +187,13 @@ class Html_report(unittest.TestCase):
     @unittest.skipUnless(HAS_VIEWER, "three.js was not there")
     def test_a_large_input_is_shown_smaller_and_the_page_says_so(self):
         (self.folder / "large.off").write_text(off_text(bumpy(224)))  # 100,352 faces
-        page = self.page(file="large.off")
+        # Even if nothing could be left out.
+        page = self.page(file="large.off", tolerance="0.0001%")
+        self.assertGreater(page.data["report"]["output"]["faces"], 100000)
         self.assertLess((self.folder / "r.html").stat().st_size, 3e6)
         before = page.data["views"][0]
         self.assertLessEqual(len(base64.b64decode(before["faces"])) / 3 / before["index_bytes"],
-                             60000)
+                             30000)
         self.assertIn("100,352 faces, shown by", before["note"])
         self.assertEqual(sum(b["number"] for b in before["qualities"]), 100352)
 
