@@ -3,6 +3,7 @@
 // surety compare: how far apart are two meshes? A certified interval each way, with the places
 // where the distance occurs; or, given a tolerance, a proof or a counter-example.
 #include "commands.h"
+#include "html_report.h"
 #include "library_checks.h"
 #include "length.h"
 #include "mesh_reading.h"
@@ -56,6 +57,7 @@ Exit_status Compare::run() const
   if (!tolerance.empty()) bound = Length::parse(tolerance, "--tolerance");
   if (!accuracy.empty()) eps = Length::parse(accuracy, "--accuracy");
   Output_files files({first, second});
+  require_json_report(report);
   if (!report.empty()) files.announce(report);
   Stopwatch watch;
   const Mesh a = read_triangles(first, reading), b = read_triangles(second, reading);

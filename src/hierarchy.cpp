@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "controls.h"
 #include "glb.h"
+#include "html_report.h"
 #include "library_checks.h"
 #include "library_description.h"
 #include "library_simplification.h"
@@ -124,6 +125,7 @@ public:
   void run()
   {
     const std::vector<Length> lengths = parse_tolerances();
+    require_json_report(arguments_.report);
     if (!arguments_.report.empty()) report_.announce(arguments_.report);
     require_compatible(arguments_.controls);
     require_numbered_vertices();

@@ -165,6 +165,13 @@ void require_possible_report(const std::string& file)
             "libjs-three and build again, or give a name that ends in .json");
 }
 
+void require_json_report(const std::string& file)
+{
+  if (is_html(file))
+    throw Failure(
+        usage, file + ": this command reports as JSON only; give a name that ends in .json");
+}
+
 void write_report(
     std::ostream& stream, const std::string& file, const Json& report,
     const Compared_meshes& meshes)

@@ -27,6 +27,10 @@ bool is_html(const std::string& file);
 /// the viewer.
 void require_possible_report(const std::string& file);
 
+/// For commands that do not have two meshes to show. \throws Failure (usage) if the name asks for a
+/// page.
+void require_json_report(const std::string& file);
+
 /// Writes the report to a stream: a page if its name says so, JSON otherwise. Where the input is
 /// large the page shows it simplified, and says so.
 void write_report(

@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "field_writing.h"
 #include "fields.h"
+#include "html_report.h"
 #include "library_description.h"
 #include "mesh_reading.h"
 #include "output_files.h"
@@ -64,6 +65,7 @@ void Info::run() const
   check_options();
   Output_files files({input});
   if (!output.empty()) files.announce(output);
+  require_json_report(report);
   if (!report.empty()) files.announce(report);
   Stopwatch watch;
   const Mesh mesh = read_mesh(input, reading);

@@ -2,6 +2,7 @@
 //
 // surety verify: checks a certificate file against the two meshes, and trusts neither.
 #include "commands.h"
+#include "html_report.h"
 #include "library_checks.h"
 #include "library_description.h"
 #include "mesh_reading.h"
@@ -37,6 +38,7 @@ Certificate read_certificate_file(const std::string& file)
 Exit_status Verify::run() const
 {
   Output_files files({input, output, certificate});
+  require_json_report(report);
   if (!report.empty()) files.announce(report);
   Stopwatch watch;
   const Mesh original = read_mesh(input, reading);

@@ -140,6 +140,15 @@ class Html_report(unittest.TestCase):
         self.assertIn("libjs-three", done.stderr)
         self.assertFalse((self.folder / "out.off").exists())
 
+    def test_commands_that_have_nothing_to_show_refuse_a_page(self):
+        for command in (("compare", "in.off", "in.off"), ("info", "in.off"),
+                        ("verify", "in.off", "in.off", "in.cert"),
+                        ("hierarchy", "in.off", "-o", "levels", "-t", "1%")):
+            with self.subTest(command=command):
+                done = self.surety(*command, "--report", "r.html", status=USAGE)
+                self.assertIn("JSON only", done.stderr)
+                self.assertFalse((self.folder / "r.html").exists())
+
     @unittest.skipUnless(HAS_VIEWER, "three.js was not there")
     def test_the_page_needs_nothing_else(self):
         page = self.page()
