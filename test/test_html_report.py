@@ -161,10 +161,17 @@ class Html_report(unittest.TestCase):
 
     @unittest.skipUnless(HAS_VIEWER, "three.js was not there")
     def test_the_page_has_what_the_json_has(self):
-        for command in ("simplify", "remesh"):
+        points = sphere()[0]
+        values = "\n".join(str(math.tanh(9 * p[2])) for p in points)
+        (self.folder / "u.sol").write_text(
+            f"MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n{len(points)}\n1 1\n{values}\n"
+            "End\n")
+        field = ("--solution", "u.sol", "--target-vertices", "500")
+        for command, flags in (("simplify", ()), ("remesh", ()), ("adapt", field)):
             with self.subTest(command=command):
-                page = self.page(command).data["report"]
-                self.surety(command, "in.off", "-o", "out.off", "-t", "1%", "--report", "r.json")
+                page = self.page(command, *flags).data["report"]
+                self.surety(command, "in.off", "-o", "out.off", "-t", "1%", "--report", "r.json",
+                            *flags)
                 report = json.loads((self.folder / "r.json").read_text())
                 del page["seconds"], report["seconds"]
                 self.assertEqual(page, report)
