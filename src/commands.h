@@ -19,6 +19,10 @@ void add_hierarchy(CLI::App& program, Exit_status& status);
 void add_remesh(CLI::App& program, Exit_status& status);
 void add_adapt(CLI::App& program, Exit_status& status);
 
+struct Reading;
+/// The options of commands that change a mesh.
+void add_reading_options(CLI::App& command, Reading& reading);
+
 /// Admits the numbers from `low` to `high` (which may be infinite), and nothing that is no number.
 CLI::Validator between(double low, double high);
 

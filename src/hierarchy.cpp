@@ -168,7 +168,7 @@ private:
 
   void read()
   {
-    input_ = read_mesh(arguments_.input, arguments_.reading);
+    input_ = read_mesh(arguments_.input, arguments_.reading, repairs_);
     lap("read");
     try {
       input_statistics_ = mesh_statistics(input_);
@@ -211,6 +211,7 @@ private:
   Output_files report_;
   Stopwatch watch_;
   Mesh input_;
+  Repairs repairs_;
   Mesh_statistics input_statistics_;
   std::vector<double> tolerances_;
   std::optional<Hierarchy<Mesh>> hierarchy_;
@@ -318,6 +319,7 @@ Json Make_hierarchy::index() const
       / (2 * std::tan(arguments_.field_of_view / 2 * radians_per_degree) * arguments_.pixel_error);
   Json json = new_report("hierarchy");
   json["input"] = to_json(arguments_.input, input_statistics_);
+  if (arguments_.reading.repair) json["input"]["repairs"] = to_json(repairs_);
   json["record"] = "operations.txt";
   json["viewport_height"] = arguments_.viewport_height;
   json["field_of_view"] = arguments_.field_of_view;
@@ -342,7 +344,8 @@ Json Make_hierarchy::index() const
 
 void Make_hierarchy::print() const
 {
-  std::cout << arguments_.input << '\n' << to_text(input_statistics_, "  ");
+  std::cout << arguments_.input << '\n'
+            << to_text(repairs_, "  ") << to_text(input_statistics_, "  ");
   std::cout << arguments_.folder << '\n';
   for (std::size_t i = 0; i < levels().size(); ++i)
     std::cout << "  " << file_of(i) << ": "
@@ -391,8 +394,7 @@ void add_hierarchy(CLI::App& program, Exit_status&)
   arguments->controls.effort = Effort::fast;
   add_controls(*command, arguments->controls);
   add_view(*command, *arguments);
-  command->add_flag(
-      "--triangulate", arguments->reading.triangulate, "split faces with more than three corners");
+  add_reading_options(*command, arguments->reading);
   command->add_flag(
       "--certificates", arguments->with_certificates,
       "write the proof of each level too, for surety verify");

@@ -26,6 +26,16 @@ void triangulate(Mesh& mesh, const std::string& file)
   throw Bad_file(file, "some faces cannot be split into triangles", "triangulate them yourself");
 }
 
+void repair_soup(Soup& soup, const std::string& file, const Reading& options, Repairs& repairs)
+{
+  if (soup.annotations)
+    throw Bad_file(
+        file, "its references and required elements name vertices, which repairing numbers anew",
+        "leave --repair out, or write it as off, obj or ply first");
+  require_polygons(soup, file, options.triangulate);
+  repair(soup, repairs);
+}
+
 /// Each polygon with vertices of its own.
 Mesh unconnected(const Soup& soup)
 {
@@ -42,7 +52,14 @@ Mesh unconnected(const Soup& soup)
 
 Mesh read_mesh(const std::string& file, const Reading& options)
 {
+  Repairs repairs;
+  return read_mesh(file, options, repairs);
+}
+
+Mesh read_mesh(const std::string& file, const Reading& options, Repairs& repairs)
+{
   Soup soup = read_soup(file);
+  if (options.repair) repair_soup(soup, file, options, repairs);
   // What annotations refer to keeps its number.
   if (options.stitch && !soup.annotations) stitch_if_unconnected(soup);
   require_polygons(soup, file, options.triangulate);
@@ -52,10 +69,14 @@ Mesh read_mesh(const std::string& file, const Reading& options)
   Mesh mesh;
   PMP::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
   triangulate(mesh, file);
+  if (options.repair) {
+    if (soup.annotations) mark(mesh, *soup.annotations, file);
+    repair(mesh, repairs);
+  }
   if (const auto defect = surety::internal::find_defect(mesh)) {
     throw Bad_file(file, defect->problem, defect->remedy);
   }
-  if (soup.annotations) mark(mesh, *soup.annotations, file);
+  if (soup.annotations && !options.repair) mark(mesh, *soup.annotations, file);
   return mesh;
 }
 

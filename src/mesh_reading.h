@@ -5,6 +5,7 @@
 #define SURETY_TOOL_MESH_READING_H
 
 #include "mesh.h"
+#include "repair.h"
 
 #include <string>
 
@@ -12,6 +13,7 @@ namespace surety::tool {
 
 struct Reading {
   bool triangulate = false; ///< split faces of more than three corners instead of refusing them
+  bool repair = false;      ///< make a manifold surface of what is none
   bool stitch = true;       ///< merge equal points if the file knows no connectivity
 };
 
@@ -19,6 +21,8 @@ struct Reading {
 /// file; a Medit file's has `Marks`. \throws Bad_file if the file cannot be read or holds no valid
 /// surface; the message names the offending element and the remedy.
 Mesh read_mesh(const std::string& file, const Reading& options);
+/// The same; adds what was repaired.
+Mesh read_mesh(const std::string& file, const Reading& options, Repairs& repairs);
 
 /// The triangles of a file as a mesh that serves to measure distances: if they are no manifold
 /// surface, or not orientable, or degenerate, they do not hang together, which changes no distance.

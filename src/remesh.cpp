@@ -57,6 +57,7 @@ private:
   std::optional<Output_files> files_;
   Stopwatch watch_;
   Mesh input_mesh_, output_mesh_;
+  Repairs repairs_;
   Mesh_statistics before_, after_;
   double length_ = 0;
   std::size_t ridges_ = 0, corners_ = 0;
@@ -96,7 +97,7 @@ void Remesh::announce_outputs()
 
 void Remesh::read()
 {
-  input_mesh_ = read_mesh(input, reading);
+  input_mesh_ = read_mesh(input, reading, repairs_);
   watch_.lap("read");
   try {
     before_ = mesh_statistics(input_mesh_);
@@ -209,6 +210,7 @@ Json Remesh::describe() const
 {
   Json json = new_report("remesh");
   json["input"] = to_json(input, before_);
+  if (reading.repair) json["input"]["repairs"] = to_json(repairs_);
   json["features"] = {{"ridges", ridges_}, {"corners", corners_}};
   json["output"] = describe_output();
   Json& certificate = json["certificate"];
@@ -241,8 +243,9 @@ void Remesh::print() const
 {
   const Metric_fit &fit = result_->fit, &given = result_->fit_of_given;
   std::cout << input << '\n'
-            << to_text(before_, "  ") << "  features: " << to_text(ridges_) << " ridge edges, "
-            << to_text(corners_) << " corners\n"
+            << to_text(repairs_, "  ") << to_text(before_, "  ")
+            << "  features: " << to_text(ridges_) << " ridge edges, " << to_text(corners_)
+            << " corners\n"
             << output << '\n'
             << to_text(after_, "  ") << "  unit edges: " << fit.unit_edges << " % ("
             << given.unit_edges << " % in the metric before the tolerance made it smaller)\n"
@@ -343,8 +346,7 @@ void add_remesh(CLI::App& program, Exit_status&)
   command->add_flag(
       "--allow-self-intersections", remesh->controls.allow_self_intersections,
       "do not prevent new self-intersections");
-  command->add_flag(
-      "--triangulate", remesh->reading.triangulate, "split faces with more than three corners");
+  add_reading_options(*command, remesh->reading);
   command->add_option(
       "--report", remesh->report,
       "write all figures to this JSON file, or with pictures to this .html file");

@@ -93,6 +93,7 @@ private:
   Output_files files_;
   Stopwatch watch_;
   Mesh input_, output_;
+  Repairs repairs_;
   Mesh_statistics input_statistics_, output_statistics_;
   double tolerance_ = 0;
   std::optional<Certificate> certificate_;
@@ -142,7 +143,7 @@ void Simplify::require_uniform_tolerance_if_accumulated() const
 
 void Simplify::read()
 {
-  input_ = read_mesh(arguments_.input, arguments_.reading);
+  input_ = read_mesh(arguments_.input, arguments_.reading, repairs_);
   lap("read");
   try {
     input_statistics_ = mesh_statistics(input_);
@@ -259,6 +260,7 @@ Json Simplify::report() const
 {
   Json json = new_report("simplify");
   json["input"] = to_json(arguments_.input, input_statistics_);
+  if (arguments_.reading.repair) json["input"]["repairs"] = to_json(repairs_);
   json["output"] = to_json(arguments_.output, output_statistics_);
   Json& certificate = json["certificate"];
   certificate["tolerance"] = tolerance_;
@@ -294,8 +296,8 @@ void Simplify::print() const
 {
   const double per_cent = 100. * double(output_statistics_.faces) / double(input_statistics_.faces);
   std::cout << arguments_.input << '\n'
-            << to_text(input_statistics_, "  ") << arguments_.output << " (" << to_text(per_cent)
-            << " % of the faces)\n"
+            << to_text(repairs_, "  ") << to_text(input_statistics_, "  ") << arguments_.output
+            << " (" << to_text(per_cent) << " % of the faces)\n"
             << to_text(output_statistics_, "  ") << "certificate\n  tolerance " << tolerance_
             << " (" << 100 * tolerance_ / diagonal(input_)
             << " % of the diagonal)\n  proven: no point of "
@@ -340,8 +342,7 @@ void add_simplify(CLI::App& program, Exit_status&)
       ->check(between(0, 4096))
       ->capture_default_str();
   add_controls(*command, arguments->controls);
-  command->add_flag(
-      "--triangulate", arguments->reading.triangulate, "split faces with more than three corners");
+  add_reading_options(*command, arguments->reading);
   command->add_option(
       "--certificate", arguments->certificate, "write the proof to this file, for surety verify");
   command->add_option(

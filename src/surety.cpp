@@ -3,6 +3,7 @@
 // The command line: finds the subcommand, runs it, and turns what it throws into a message and an
 // exit status.
 #include "commands.h"
+#include "mesh_reading.h"
 #include "self_description.h"
 
 #include <surety/errors.h>
@@ -13,6 +14,15 @@
 #include <new>
 
 namespace surety::tool {
+
+void add_reading_options(CLI::App& command, Reading& reading)
+{
+  command.add_flag(
+      "--triangulate", reading.triangulate, "split faces with more than three corners");
+  command.add_flag(
+      "--repair", reading.repair,
+      "make a manifold surface of a file that holds none; the proof is about the repaired one");
+}
 
 CLI::Validator between(double low, double high)
 {

@@ -88,6 +88,8 @@ void add_verify(CLI::App& program, Exit_status& status)
   command->add_flag(
       "--triangulate", verify->reading.triangulate,
       "split faces of the original mesh with more corners, as when it was simplified");
+  command->add_flag(
+      "--repair", verify->reading.repair, "repair the original mesh, as when it was simplified");
   command->add_option("--report", verify->report, "write the answer to this JSON file");
   command->add_flag("--quiet", verify->is_quiet, "print nothing but errors");
   command->footer("The exit status is 0 if the certificate holds, and 4 if it does not.\n"
