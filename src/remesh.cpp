@@ -279,7 +279,7 @@ void add_size_options(CLI::App& command, Remesh& remesh)
   command
       .add_option(
           "--gradation", remesh.controls.gradation,
-          "by which factor sizes may grow from edge to edge; 0: 1.3, or 1.5 with --fewest")
+          "by which factor sizes may grow from edge to edge; 0: 1.3, or 1.75 with --fewest")
       ->check(between(0, std::numeric_limits<double>::infinity()))
       ->capture_default_str();
   command.add_option(

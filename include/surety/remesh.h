@@ -34,8 +34,8 @@ namespace internal {
 /// Gap over curvature times size squared. The triangle's own constant, 1/6 to 1/8, would have every
 /// face within the tolerance of a smooth surface that its vertices lie on. Vertices that may leave
 /// it have twice the room, and the bound decides in the end.
-constexpr double remesh_gap_constant = 1. / 12, remesh_gap_constant_for_fewest = 1. / 24;
-constexpr double remesh_gradation_for_fewest = 1.5;
+constexpr double remesh_gap_constant = 1. / 12, remesh_gap_constant_for_fewest = 1. / 32;
+constexpr double remesh_gradation_for_fewest = 1.75;
 constexpr double remesh_least_size = 6; ///< times the tolerance
 
 /// What the user says, or, where that is 0, what we say.
@@ -128,7 +128,7 @@ Metric_field metric_to_remesh(
 ///   \cgalParamNBegin{gap_constant}
 ///     \cgalParamDescription{gap over curvature times size squared}
 ///     \cgalParamType{`double`, positive}
-///     \cgalParamDefault{1/12; 1/24 for fewest faces}
+///     \cgalParamDefault{1/12; 1/32 for fewest faces}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{fewest_faces}
 ///     \cgalParamDescription{prefer few faces to a mesh that follows the curvature closely}
@@ -138,7 +138,7 @@ Metric_field metric_to_remesh(
 ///   \cgalParamNBegin{gradation}
 ///     \cgalParamDescription{by which factor sizes may grow along an edge of unit length}
 ///     \cgalParamType{`double`, at least 1}
-///     \cgalParamDefault{0: 1.3; 1.5 for fewest faces}
+///     \cgalParamDefault{0: 1.3; 1.75 for fewest faces}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{minimum_size}
 ///     \cgalParamDescription{the least size that curvature asks for}
@@ -198,6 +198,7 @@ Remeshing remesh(
       = parameters::tolerance(tolerance)
             .geometric_support(support)
             .gradation(beta)
+            .fewest_faces(is_for_fewest)
             .minimum_size(least)
             .background_metric(choose_parameter(
                 get_parameter(np, internal::background_metric),

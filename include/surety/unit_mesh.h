@@ -61,7 +61,9 @@ unit_mesh::Controls unit_mesh_controls(
       controls.gradation, 1, std::numeric_limits<double>::infinity(), function, "gradation");
   controls.most_passes = static_cast<unsigned>(choose_parameter(
       get_parameter(np, CGAL::internal_np::number_of_iterations), defaults::unit_mesh_iterations));
-  controls.collapse_below = .8;
+  // Shorter edges are unit as well, but fewer of them are better.
+  controls.collapse_below
+      = choose_parameter(get_parameter(np, fewest_faces), defaults::fewest_faces) ? .9 : .8;
   controls.allow_self_intersections = choose_parameter(
       get_parameter(np, allow_self_intersections), defaults::allow_self_intersections);
   controls.places_freely
@@ -176,6 +178,11 @@ void require_metric_of(
 ///       metric has been made smaller}
 ///     \cgalParamType{`double`, at least 1}
 ///     \cgalParamDefault{1.3}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{fewest_faces}
+///     \cgalParamDescription{take edges away that are shorter than .9 already, not .8}
+///     \cgalParamType{`bool`}
+///     \cgalParamDefault{`false`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{minimum_size}
 ///     \cgalParamDescription{the metric is not made smaller than this}
