@@ -20,14 +20,15 @@ SIZE = (2100, 840)
 HEAT = [(68, 1, 84), (65, 68, 135), (42, 120, 142), (34, 168, 132), (122, 209, 81), (253, 231, 37)]
 
 
-def surface(data, colors=None):
+def surface(data, colors=None, name="deviation"):
+    """A mesh with its edges, or coloured by an array of its faces."""
     mapper = vtk.vtkPolyDataMapper()
     mapper.SetInputData(data)
     mapper.ScalarVisibilityOff()
     if colors is not None:
         mapper.ScalarVisibilityOn()
         mapper.SetScalarModeToUseCellFieldData()
-        mapper.SelectColorArray("deviation")
+        mapper.SelectColorArray(name)
         mapper.SetLookupTable(colors)
         mapper.UseLookupTableScalarRangeOn()
     actor = vtk.vtkActor()

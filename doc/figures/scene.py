@@ -2,7 +2,9 @@
 #
 # What the programs that draw the manual's figures share: reading meshes, colours, titles, and views
 # side by side in one picture. Needs python3-vtk9.
+import numpy
 import vtk
+from palette import write_png
 from vtk.util.numpy_support import vtk_to_numpy
 
 # Samples of "cool to warm", the colours of the fields that surety writes to PLY files.
@@ -40,6 +42,12 @@ def read_vtp(path):
 def array(data, name):
     """The values of an array of the vertices."""
     return vtk_to_numpy(data.GetPointData().GetArray(name))
+
+
+def corners_and_points(data):
+    """The faces of a triangle mesh as rows of three vertices, and the points of these."""
+    corners = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    return corners, vtk_to_numpy(data.GetPoints().GetData()).astype(float)
 
 
 def color_scale(samples, low, high, by_logarithm=False):
@@ -101,31 +109,33 @@ def scale(colors):
     return bar
 
 
-def draw(views, size, aim, picture_path):
-    """Views, pairs of a title and actors, side by side; `aim` gets the number of each and its
-    renderer, to place the camera."""
+def draw(views, size, aim, picture_path, columns=None):
+    """Views, pairs of a title and actors, side by side, in rows of `columns` if that is given; `aim`
+    gets the number of each and its renderer, to place the camera."""
+    columns = columns or len(views)
+    rows = -(-len(views) // columns)
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(8)
     window.SetSize(*size)
     for i, (text, actors) in enumerate(views):
+        row, column = divmod(i, columns)
         renderer = vtk.vtkRenderer()
-        renderer.SetViewport(i / len(views), 0, (i + 1) / len(views), 1)
+        renderer.SetViewport(column / columns, 1 - (row + 1) / rows, (column + 1) / columns,
+                             1 - row / rows)
         renderer.SetBackground(1, 1, 1)
         renderer.AddActor(title(text))
         for actor in actors:
             renderer.AddActor(actor)
-        aim(i, renderer)
         window.AddRenderer(renderer)
+        aim(i, renderer)
     window.Render()
 
     image = vtk.vtkWindowToImageFilter()
     image.SetInput(window)
     image.ReadFrontBufferOff()
-    writer = vtk.vtkPNGWriter()
-    writer.SetFileName(picture_path)
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.Write()
+    image.Update()
+    write_png(image.GetOutput(), picture_path)
 
 
 def from_the_front(zoom, shift=0):
@@ -152,5 +162,33 @@ def from_a_corner(zoom):
         renderer.ResetCamera()
         camera.Zoom(zoom)
         camera.SetWindowCenter(0, -0.05)
+
+    return aim
+
+
+def fitted(data, direction, up=(0, 1, 0)):
+    """A camera without perspective that sees all of a mesh, looking against a direction; all views
+    have one scale. Room is left for a title and a scale of colours."""
+    away = numpy.array(direction, float) / numpy.linalg.norm(direction)
+    right = numpy.cross(up, away)
+    right /= numpy.linalg.norm(right)
+    upwards = numpy.cross(away, right)
+    _, points = corners_and_points(data)
+    depth = float(numpy.ptp(points @ away))
+    centre, extent = numpy.zeros(3), []
+    for axis in (right, upwards, away):
+        low, high = (points @ axis).min(), (points @ axis).max()
+        centre += (low + high) / 2 * axis
+        extent.append(high - low)
+
+    def aim(_, renderer):
+        width, height = renderer.GetSize()
+        camera = renderer.GetActiveCamera()
+        camera.ParallelProjectionOn()
+        camera.SetViewUp(*up)
+        camera.SetFocalPoint(*centre)
+        camera.SetPosition(*(centre + 2 * depth * away))
+        camera.SetParallelScale(max(extent[1] / 0.78, extent[0] / 0.94 * height / width) / 2)
+        renderer.ResetCameraClippingRange()
 
     return aim

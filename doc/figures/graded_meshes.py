@@ -1,0 +1,35 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Unit meshes without gradation, with the default and with a slow one (table 2 and figure 6 of the
+# paper), with their statistics.
+#
+#   xvfb-run -a python3 graded_meshes.py surety models work_folder figure_folder
+#
+# Needs python3-vtk9, and a display, which xvfb-run provides where there is none.
+from heat_map import surface
+from runs import arguments, result_row, write_table
+from scene import draw, fitted, read_vtp
+
+SIZE = (2100, 560)
+MODEL, TOLERANCE = "fandisk", "0.1%"
+OFF = "1000"  # the flag takes finite numbers; no sizes of a mesh are as far apart
+GRADATIONS = {"without gradation": OFF, "1.3, the default": "1.3", "1.1": "1.1"}
+
+
+def main():
+    runs, figures = arguments()
+    rows, views, meshes = [], [], []
+    for name, gradation in GRADATIONS.items():
+        path, report = runs("remesh", runs.model(MODEL), f"{MODEL}_gradation_{gradation}",
+                            "-t", TOLERANCE, "--gradation", gradation)
+        meshes.append(read_vtp(path))
+        rows.append(result_row(name, report))
+        faces = report["output"]["faces"]
+        views.append((f"{name}: {faces:,} faces", [surface(meshes[-1])]))
+    draw(views, SIZE, fitted(meshes[0], (0.6, 0.5, 1)), str(figures / "graded_meshes.png"))
+    write_table(runs.folder / "graded_meshes.md", rows)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# What the programs share that make a table: runs of the command line, and rows of statistics as in
+# the tables of the paper, measured by surety and, where its report does not say, from the mesh.
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy
+from scene import corners_and_points, read_vtp
+
+SHARP = 30  # degrees: no triangle in a corner that is as sharp can be round
+CREASE = 25  # degrees by which a surface turns at an edge that bounds such a corner
+
+COLUMNS = ("mesh", "np", "ne", "Q worst", "Q mean", "Q <= 2", "tau", "unit edges",
+           "proven distance")
+
+
+class Runs:
+    """Runs surety on the models of a folder; results go to another folder."""
+
+    def __init__(self, program, models, folder):
+        self.program, self.models, self.folder = program, Path(models), Path(folder)
+        self.folder.mkdir(parents=True, exist_ok=True)
+
+    def model(self, name):
+        return self.models / f"{name}.off"
+
+    def __call__(self, command, given, name, *flags):
+        """Runs a command on a file; returns the mesh and the report. Fails where surety does."""
+        mesh, report = self.folder / f"{name}.vtp", self.folder / f"{name}.json"
+        subprocess.run([self.program, command, str(given), "-o", str(mesh), *flags, "--quiet",
+                        "--report", str(report)], check=True)
+        return str(mesh), json.loads(report.read_text(encoding="utf-8"))
+
+
+def arguments():
+    """What all of these programs are called with: (runs, folder of pictures and tables)."""
+    if len(sys.argv) != 5:
+        sys.exit(f"usage: {Path(sys.argv[0]).name} surety models work_folder figure_folder")
+    program, models, work, figures = sys.argv[1:]
+    figures = Path(figures)
+    figures.mkdir(parents=True, exist_ok=True)
+    return Runs(program, models, work), figures
+
+
+def qualities(corners, points):
+    """Q of each face: sqrt(3)/6 times longest edge over radius of the inscribed circle."""
+    p = points[corners]
+    edges = numpy.linalg.norm(numpy.roll(p, -1, axis=1) - p, axis=2)
+    area = numpy.linalg.norm(numpy.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1) / 2
+    return 3**0.5 / 12 * edges.max(1) * edges.sum(1) / numpy.maximum(area, 1e-300)
+
+
+def sharp_faces(corners, points):
+    """Faces at a vertex where the surface between two creases or borders is sharper than SHARP."""
+    p = points[corners]
+    normal = numpy.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+    normal /= numpy.linalg.norm(normal, axis=1)[:, None]
+    face_of = {}
+    for f, face in enumerate(corners):
+        for i in range(3):
+            face_of[face[i], face[(i + 1) % 3]] = f
+
+    def is_crease(a, b):
+        f, g = face_of.get((a, b)), face_of.get((b, a))
+        return f is None or g is None or (
+            normal[f] @ normal[g] < numpy.cos(numpy.radians(CREASE)))
+
+    def angle(face, i):
+        u, w = (points[face[(i + k) % 3]] - points[face[i]] for k in (1, 2))
+        return numpy.degrees(numpy.arccos(u @ w / numpy.linalg.norm(u) / numpy.linalg.norm(w)))
+
+    found = numpy.zeros(len(corners), bool)
+    for f, face in enumerate(corners):
+        for i in range(3):
+            v, first = face[i], face[(i + 1) % 3]
+            if not is_crease(v, first):
+                continue
+            # From this crease on, face by face, to the next one.
+            sector, opening, g, j = [], 0.0, f, i
+            while True:
+                sector.append(g)
+                opening += angle(corners[g], j)
+                last = corners[g][(j + 2) % 3]
+                if opening >= SHARP or is_crease(v, last):
+                    break
+                g = face_of[v, last]
+                j = list(corners[g]).index(v)
+            if opening < SHARP:
+                found[sector] = True
+    return found
+
+
+def worst_quality_elsewhere(path):
+    """The worst Q of a VTP file away from corners sharper than SHARP, and their faces' number."""
+    corners, points = corners_and_points(read_vtp(path))
+    sharp = sharp_faces(corners, points)
+    return float(qualities(corners, points)[~sharp].max()), int(sharp.sum())
+
+
+def number(value, digits):
+    return f"{value:,.{digits}f}"
+
+
+def per_cent_above(value, digits):
+    """A bound is rounded upwards."""
+    return f"{math.ceil(value * 10**digits) / 10**digits:.{digits}f} %"
+
+
+def worst(value):
+    return number(value, 1) if value < 1000 else "> 1,000"
+
+
+def row(name, statistics, certificate=None, diagonal=None):
+    """A line of a table. Only unit meshes have a tau, and only results a distance."""
+    of_edges = "efficiency_index" in statistics
+    return (
+        name, number(statistics["vertices"], 0), number(statistics["faces"], 0),
+        worst(statistics["Q_max"]), number(statistics["Q_avg"], 2),
+        number(statistics["Q_le_2"], 1) + " %",
+        number(statistics["efficiency_index"], 3) if of_edges else "",
+        number(statistics["unit_edges"], 1) + " %" if of_edges else "",
+        per_cent_above(100 * certificate["bound"] / diagonal, 4) if certificate else "")
+
+
+def result_row(name, report):
+    return row(name, report["output"], report["certificate"], report["input"]["diagonal"])
+
+
+def write_table(path, rows, columns=COLUMNS):
+    lines = [columns, ["---"] * len(columns), *rows]
+    text = "".join("| " + " | ".join(line) + " |\n" for line in lines)
+    Path(path).write_text(text, encoding="utf-8")
