@@ -1,40 +1,45 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# A scan made into a mesh for simulation (figure 7 of the paper), with two tolerances, and where the
-# tolerance is spent; with statistics.
+# A scan made into meshes for simulation with two tolerances (figure 7 of the paper): what is left of
+# its shape, and the faces; with statistics.
 #
 #   xvfb-run -a python3 decimation.py surety models work_folder figure_folder
 #
 # Needs python3-vtk9, and a display, which xvfb-run provides where there is none.
-from heat_map import HEAT, surface
+from heat_map import surface
 from runs import arguments, result_row, row, write_table
-from scene import color_scale, draw, fitted, read_off, read_vtp, scale
+from scene import draw, fitted, points_of, read_off, read_vtp
 
-SIZE = (1600, 1400)
+SIZE = (1200, 920)
 MODEL, TOLERANCES = "armadillo", ("0.1%", "0.3%")
+FRONT = (0, 0.15, -1)
 
 
 def main():
     runs, figures = arguments()
-    original = read_off(str(runs.model(MODEL)))
-    views = [(f"input: {original.GetNumberOfPolys():,} faces", [surface(original)])]
-    rows = []
+    meshes, names, rows = [read_off(str(runs.model(MODEL)))], ["input"], []
     for tolerance in TOLERANCES:
         path, report = runs("remesh", runs.model(MODEL), f"{MODEL}_{tolerance[:-1]}",
                             "-t", tolerance)
         if not rows:
             rows.append(row(f"{MODEL}, input", report["input"]))
-        rows.append(result_row(f"within {tolerance[:-1]} %", report))
-        mesh = read_vtp(path)
-        views.append((f"within {tolerance[:-1]} %: {report['output']['faces']:,} faces",
-                      [surface(mesh)]))
-    limit = report["certificate"]["tolerance"]
-    colors = color_scale(HEAT, 0, limit)
-    views.append((f"proven deviation, up to {TOLERANCES[-1][:-1]} % of the diagonal",
-                  [surface(mesh, colors), scale(colors)]))
-    draw(views, SIZE, fitted(original, (0, 0.15, -1)), str(figures / "decimation.png"), columns=2)
+        meshes.append(read_vtp(path))
+        names.append(f"within {tolerance[:-1]} %")
+        rows.append(result_row(names[-1], report))
     write_table(runs.folder / "decimation.md", rows)
+
+    views = [(f"{name}: {mesh.GetNumberOfPolys():,} faces", [surface(mesh, edges=False)])
+             for name, mesh in zip(names, meshes)]
+    views += [("", [surface(mesh)]) for mesh in meshes]
+    points = points_of(meshes[0])
+    head = points[(points[:, 1] > 42) & (abs(points[:, 0]) < 28)]
+    whole, detail = fitted(points, FRONT), fitted(head, FRONT)
+
+    def aim(i, renderer):
+        (whole if i < len(meshes) else detail)(i, renderer)
+
+    draw(views, SIZE, aim, str(figures / "decimation.png"), columns=len(meshes))
 
 
 if __name__ == "__main__":

@@ -9,25 +9,27 @@
 # Needs python3-vtk9, and a display, which xvfb-run provides where there is none.
 from heat_map import surface
 from runs import arguments, result_row, write_table
-from scene import draw, fitted, read_vtp
+from scene import draw, fitted, points_of, read_vtp
 
 SIZE = (2100, 560)
-MODEL, TOLERANCE = "fandisk", "0.1%"
+PART, SMOOTH, TOLERANCE = "fandisk", "blobby", "0.1%"
 OFF = "1000"  # the flag takes finite numbers; no sizes of a mesh are as far apart
-GRADATIONS = {"without gradation": OFF, "1.3, the default": "1.3", "1.1": "1.1"}
+GRADATIONS = {"without gradation": OFF, "gradation 1.3": "1.3", "gradation 1.1": "1.1"}
 
 
 def main():
     runs, figures = arguments()
-    rows, views, meshes = [], [], []
-    for name, gradation in GRADATIONS.items():
-        path, report = runs("remesh", runs.model(MODEL), f"{MODEL}_gradation_{gradation}",
-                            "-t", TOLERANCE, "--gradation", gradation)
-        meshes.append(read_vtp(path))
-        rows.append(result_row(name, report))
-        faces = report["output"]["faces"]
-        views.append((f"{name}: {faces:,} faces", [surface(meshes[-1])]))
-    draw(views, SIZE, fitted(meshes[0], (0.6, 0.5, 1)), str(figures / "graded_meshes.png"))
+    rows, views = [], []
+    for model in (PART, SMOOTH):
+        for name, gradation in GRADATIONS.items():
+            path, report = runs("remesh", runs.model(model), f"{model}_gradation_{gradation}",
+                                "-t", TOLERANCE, "--gradation", gradation)
+            rows.append(result_row(f"{model}, {name}", report))
+            if model == PART:
+                mesh = read_vtp(path)
+                views.append((f"{name}: {report['output']['faces']:,} faces", [surface(mesh)]))
+    draw(views, SIZE, fitted(points_of(mesh), (0.6, 0.5, 1)),
+         str(figures / "graded_meshes.png"))
     write_table(runs.folder / "graded_meshes.md", rows)
 
 

@@ -20,8 +20,8 @@ SIZE = (2100, 840)
 HEAT = [(68, 1, 84), (65, 68, 135), (42, 120, 142), (34, 168, 132), (122, 209, 81), (253, 231, 37)]
 
 
-def surface(data, colors=None, name="deviation"):
-    """A mesh with its edges, or coloured by an array of its faces."""
+def surface(data, colors=None, name="deviation", edges=True):
+    """A mesh, with its edges unless it is coloured by an array of its faces."""
     mapper = vtk.vtkPolyDataMapper()
     mapper.SetInputData(data)
     mapper.ScalarVisibilityOff()
@@ -38,7 +38,7 @@ def surface(data, colors=None, name="deviation"):
     look.SetColor(0.86, 0.84, 0.80)
     look.SetAmbient(0.25 if colors is None else 0.6)
     look.SetDiffuse(0.75 if colors is None else 0.4)
-    if colors is None:
+    if colors is None and edges:
         look.EdgeVisibilityOn()
         look.SetEdgeColor(0.15, 0.18, 0.25)
         look.SetLineWidth(1.0)

@@ -29,8 +29,10 @@ class Runs:
         return self.models / f"{name}.off"
 
     def __call__(self, command, given, name, *flags):
-        """Runs a command on a file; returns the mesh and the report. Fails where surety does."""
-        mesh, report = self.folder / f"{name}.vtp", self.folder / f"{name}.json"
+        """Runs a command on a file; returns the mesh, VTP unless the name has an extension, and the
+        report. Fails where surety does."""
+        mesh = self.folder / (name if Path(name).suffix in (".off", ".vtp") else f"{name}.vtp")
+        report = self.folder / f"{mesh.name}.json"
         subprocess.run([self.program, command, str(given), "-o", str(mesh), *flags, "--quiet",
                         "--report", str(report)], check=True)
         return str(mesh), json.loads(report.read_text(encoding="utf-8"))
@@ -105,13 +107,18 @@ def number(value, digits):
     return f"{value:,.{digits}f}"
 
 
+def share(value):
+    """Rounded downwards, so that 100 % means all."""
+    return f"{math.floor(10 * value) / 10:.1f} %"
+
+
 def per_cent_above(value, digits):
     """A bound is rounded upwards."""
     return f"{math.ceil(value * 10**digits) / 10**digits:.{digits}f} %"
 
 
 def worst(value):
-    return number(value, 1) if value < 1000 else "> 1,000"
+    return number(value, 2) if value < 1000 else "> 1,000"
 
 
 def row(name, statistics, certificate=None, diagonal=None):
@@ -119,10 +126,10 @@ def row(name, statistics, certificate=None, diagonal=None):
     of_edges = "efficiency_index" in statistics
     return (
         name, number(statistics["vertices"], 0), number(statistics["faces"], 0),
-        worst(statistics["Q_max"]), number(statistics["Q_avg"], 2),
-        number(statistics["Q_le_2"], 1) + " %",
+        worst(statistics["Q_max"]), number(statistics["Q_avg"], 3),
+        share(statistics["Q_le_2"]),
         number(statistics["efficiency_index"], 3) if of_edges else "",
-        number(statistics["unit_edges"], 1) + " %" if of_edges else "",
+        share(statistics["unit_edges"]) if of_edges else "",
         per_cent_above(100 * certificate["bound"] / diagonal, 4) if certificate else "")
 
 

@@ -9,6 +9,7 @@ from vtk.util.numpy_support import vtk_to_numpy
 
 # Samples of "cool to warm", the colours of the fields that surety writes to PLY files.
 DIVERGING = [(59, 76, 192), (141, 176, 254), (221, 221, 221), (244, 152, 122), (180, 4, 38)]
+GAP = 5  # pixels at either side of a view
 
 
 def read_off(path):
@@ -44,10 +45,14 @@ def array(data, name):
     return vtk_to_numpy(data.GetPointData().GetArray(name))
 
 
+def points_of(data):
+    return vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+
+
 def corners_and_points(data):
     """The faces of a triangle mesh as rows of three vertices, and the points of these."""
     corners = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-    return corners, vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+    return corners, points_of(data)
 
 
 def color_scale(samples, low, high, by_logarithm=False):
@@ -87,7 +92,8 @@ def title(text):
     actor.GetTextProperty().SetBackgroundColor(1, 1, 1)
     actor.GetTextProperty().SetBackgroundOpacity(1)
     actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-    actor.SetPosition(0.5, 0.94)
+    actor.GetTextProperty().SetVerticalJustificationToTop()
+    actor.SetPosition(0.5, 0.985)
     return actor
 
 
@@ -118,11 +124,15 @@ def draw(views, size, aim, picture_path, columns=None):
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(8)
     window.SetSize(*size)
+    ground = vtk.vtkRenderer()  # behind the gaps
+    ground.SetBackground(1, 1, 1)
+    window.AddRenderer(ground)
     for i, (text, actors) in enumerate(views):
         row, column = divmod(i, columns)
         renderer = vtk.vtkRenderer()
-        renderer.SetViewport(column / columns, 1 - (row + 1) / rows, (column + 1) / columns,
-                             1 - row / rows)
+        gap = GAP / size[0]
+        renderer.SetViewport(column / columns + gap, 1 - (row + 1) / rows,
+                             (column + 1) / columns - gap, 1 - row / rows)
         renderer.SetBackground(1, 1, 1)
         renderer.AddActor(title(text))
         for actor in actors:
@@ -166,14 +176,13 @@ def from_a_corner(zoom):
     return aim
 
 
-def fitted(data, direction, up=(0, 1, 0)):
-    """A camera without perspective that sees all of a mesh, looking against a direction; all views
-    have one scale. Room is left for a title and a scale of colours."""
+def fitted(points, direction, up=(0, 1, 0)):
+    """A camera without perspective that sees all of these points, looking against a direction.
+    Room is left for a title and a scale of colours."""
     away = numpy.array(direction, float) / numpy.linalg.norm(direction)
     right = numpy.cross(up, away)
     right /= numpy.linalg.norm(right)
     upwards = numpy.cross(away, right)
-    _, points = corners_and_points(data)
     depth = float(numpy.ptp(points @ away))
     centre, extent = numpy.zeros(3), []
     for axis in (right, upwards, away):

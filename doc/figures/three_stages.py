@@ -9,7 +9,7 @@
 # Needs python3-vtk9, and a display, which xvfb-run provides where there is none.
 from heat_map import surface
 from runs import arguments, number, result_row, row, worst_quality_elsewhere, write_table
-from scene import color_scale, draw, fitted, read_off, read_vtp, scale
+from scene import color_scale, draw, fitted, points_of, read_off, read_vtp, scale
 
 SIZE = (1600, 1200)
 TOLERANCE = "0.1%"
@@ -31,7 +31,7 @@ def picture(part, given, geometric, unit, path):
     views = [(f"{name}: {mesh.GetNumberOfPolys():,} faces", [surface(mesh)])
              for name, mesh in zip(names, meshes)]
     views.append(("Q of the unit mesh", [surface(meshes[2], colors, "quality"), scale(colors)]))
-    draw(views, SIZE, fitted(meshes[0], PARTS[part]), path, columns=2)
+    draw(views, SIZE, fitted(points_of(meshes[0]), PARTS[part]), path, columns=2)
 
 
 def main():
