@@ -13,7 +13,8 @@ import sys
 from pathlib import Path
 
 from heat_map import surface
-from runs import number, per_cent_above, qualities, share, write_table
+from measure import qualities
+from runs import number, per_cent_above, share, write_table
 from scene import corners_and_points, draw, from_the_front, read_off
 
 SIZE = (2400, 700)

@@ -127,7 +127,10 @@ def main(surety, front, models, folder, *wanted):
     for name, make in makers.items():
         if not wanted or name in wanted:
             print(name, flush=True)
-            make()
+            try:
+                make()
+            except subprocess.CalledProcessError as error:
+                sys.exit(f"make_all.py: {name}: {error}")
     put_tables_in_page(folder)
 
 

@@ -8,11 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy
+from measure import qualities, sharp_faces
 from scene import corners_and_points, read_vtp
-
-SHARP = 30  # degrees: no triangle in a corner that is as sharp can be round
-CREASE = 25  # degrees by which a surface turns at an edge that bounds such a corner
 
 COLUMNS = ("mesh", "np", "ne", "Q worst", "Q mean", "Q <= 2", "tau", "unit edges",
            "proven distance")
@@ -46,54 +43,6 @@ def arguments():
     figures = Path(figures)
     figures.mkdir(parents=True, exist_ok=True)
     return Runs(program, models, work), figures
-
-
-def qualities(corners, points):
-    """Q of each face: sqrt(3)/6 times longest edge over radius of the inscribed circle."""
-    p = points[corners]
-    edges = numpy.linalg.norm(numpy.roll(p, -1, axis=1) - p, axis=2)
-    area = numpy.linalg.norm(numpy.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1) / 2
-    return 3**0.5 / 12 * edges.max(1) * edges.sum(1) / numpy.maximum(area, 1e-300)
-
-
-def sharp_faces(corners, points):
-    """Faces at a vertex where the surface between two creases or borders is sharper than SHARP."""
-    p = points[corners]
-    normal = numpy.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-    normal /= numpy.linalg.norm(normal, axis=1)[:, None]
-    face_of = {}
-    for f, face in enumerate(corners):
-        for i in range(3):
-            face_of[face[i], face[(i + 1) % 3]] = f
-
-    def is_crease(a, b):
-        f, g = face_of.get((a, b)), face_of.get((b, a))
-        return f is None or g is None or (
-            normal[f] @ normal[g] < numpy.cos(numpy.radians(CREASE)))
-
-    def angle(face, i):
-        u, w = (points[face[(i + k) % 3]] - points[face[i]] for k in (1, 2))
-        return numpy.degrees(numpy.arccos(u @ w / numpy.linalg.norm(u) / numpy.linalg.norm(w)))
-
-    found = numpy.zeros(len(corners), bool)
-    for f, face in enumerate(corners):
-        for i in range(3):
-            v, first = face[i], face[(i + 1) % 3]
-            if not is_crease(v, first):
-                continue
-            # From this crease on, face by face, to the next one.
-            sector, opening, g, j = [], 0.0, f, i
-            while True:
-                sector.append(g)
-                opening += angle(corners[g], j)
-                last = corners[g][(j + 2) % 3]
-                if opening >= SHARP or is_crease(v, last):
-                    break
-                g = face_of[v, last]
-                j = list(corners[g]).index(v)
-            if opening < SHARP:
-                found[sector] = True
-    return found
 
 
 def worst_quality_elsewhere(path):
@@ -135,6 +84,10 @@ def row(name, statistics, certificate=None, diagonal=None):
 
 def result_row(name, report):
     return row(name, report["output"], report["certificate"], report["input"]["diagonal"])
+
+
+def judged(text, holds):
+    return f"{text}, {'reached' if holds else 'not reached'}"
 
 
 def write_table(path, rows, columns=COLUMNS):

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# The figures of the manual are made by one program, and what they measure themselves is right.
+import re
+import struct
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+FIGURES = ROOT / "doc/figures"
+APPLICATIONS = ROOT / "doc/manual/applications.md"
+SHARED = {"make_all", "measure", "palette", "runs", "scene"}
+sys.path.insert(0, str(FIGURES))
+sys.dont_write_bytecode = True
+try:
+    import numpy
+    import measure
+except ImportError:
+    numpy = None
+try:
+    import vtk
+    import palette
+except ImportError:
+    vtk = None
+
+
+class The_figures(unittest.TestCase):
+    def test_are_all_made_by_one_program(self):
+        maker = (FIGURES / "make_all.py").read_text()
+        for program in FIGURES.glob("*.py"):
+            if program.stem not in SHARED:
+                with self.subTest(program=program.name):
+                    self.assertIn(f'"{program.stem}"', maker)
+
+    def test_are_small_and_shown(self):
+        pages = "".join(page.read_text() for page in (ROOT / "doc/manual").glob("*.md"))
+        pages += (ROOT / "README.md").read_text()
+        for picture in FIGURES.glob("*.png"):
+            with self.subTest(picture=picture.name):
+                self.assertIn(f"figures/{picture.name})", pages)
+                self.assertLess(picture.stat().st_size, 400_000)
+
+    def test_come_with_tables_that_are_filled(self):
+        tables = re.findall(r"<!-- table: (\w+) -->\n(.*?)<!-- end of the table -->",
+                            APPLICATIONS.read_text(), re.DOTALL)
+        self.assertGreater(len(tables), 5)
+        sources = "".join(program.read_text() for program in FIGURES.glob("*.py"))
+        for name, table in tables:
+            with self.subTest(table=name):
+                self.assertIn(f"{name}.md", sources)
+                lines = table.splitlines()
+                self.assertGreater(len(lines), 2)
+                self.assertEqual(len({line.count("|") for line in lines}), 1)
+
+
+@unittest.skipIf(numpy is None, "NumPy is not there")
+class A_measurement(unittest.TestCase):
+    def test_of_shape_is_one_for_the_equilateral_triangle_only(self):
+        points = numpy.array([[0, 0, 0], [2, 0, 0], [1, 3**0.5, 0], [0, 2, 0]])
+        equilateral, right = measure.qualities(numpy.array([[0, 1, 2], [0, 1, 3]]), points)
+        self.assertAlmostEqual(equilateral, 1, 14)
+        # Its longest edge is 2 sqrt(2), the radius of its inscribed circle 2 - sqrt(2).
+        self.assertAlmostEqual(right, 3**0.5 / 6 * 2 * 2**0.5 / (2 - 2**0.5), 14)
+
+    def test_finds_corners_below_thirty_degrees_however_they_are_divided(self):
+        for degrees, is_sharp in ((29, True), (31, False)):
+            for pieces in (1, 2, 5):
+                with self.subTest(degrees=degrees, pieces=pieces):
+                    angles = numpy.radians(numpy.linspace(0, degrees, pieces + 1))
+                    points = [[0, 0, 0], *([numpy.cos(t), numpy.sin(t), 0] for t in angles)]
+                    # Far away from the corner the piece goes on, so that only the corner is sharp.
+                    rim = [[3 * x, 3 * y, 0] for x, y, _ in points[1:]]
+                    faces = [[0, i + 1, i + 2] for i in range(pieces)]
+                    n = pieces + 1
+                    for i in range(pieces):
+                        faces += [[i + 1, n + i + 1, i + 2], [n + i + 1, n + i + 2, i + 2]]
+                    found = measure.sharp_faces(numpy.array(faces), numpy.array(points + rim))
+                    self.assertEqual(list(found[:pieces]), [is_sharp] * pieces)
+                    self.assertFalse(found[pieces:].any())
+
+
+@unittest.skipIf(vtk is None or numpy is None, "VTK is not there")
+class A_picture(unittest.TestCase):
+    def test_with_a_palette_has_nearly_the_same_colours(self):
+        source = vtk.vtkImageData()
+        source.SetDimensions(64, 48, 1)
+        source.AllocateScalars(vtk.VTK_UNSIGNED_CHAR, 3)
+        given = palette.vtk_to_numpy(source.GetPointData().GetScalars())
+        x, y = numpy.meshgrid(numpy.arange(64), numpy.arange(48))
+        given[:] = numpy.stack([4 * x, 5 * y, 0 * x + 40], axis=2).reshape(-1, 3)
+        with tempfile.TemporaryDirectory() as folder:
+            path = f"{folder}/picture.png"
+            palette.write_png(source, path)
+            header = Path(path).read_bytes()[16:26]
+            self.assertEqual(struct.unpack(">IIBB", header), (64, 48, 8, 3))
+            reader = vtk.vtkPNGReader()
+            reader.SetFileName(path)
+            reader.Update()
+            got = palette.vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
+        difference = numpy.abs(given.astype(int) - got[:, :3]).max()
+        self.assertLess(difference, 24)  # 256 squares of this plane of colours are 16 wide
+        self.assertGreater(len(numpy.unique(got, axis=0)), 128)
+
+
+if __name__ == "__main__":
+    unittest.main()
