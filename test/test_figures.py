@@ -81,6 +81,21 @@ class A_measurement(unittest.TestCase):
                     self.assertFalse(found[pieces:].any())
 
 
+    def test_of_interpolation_agrees_with_the_integral_of_a_parabola(self):
+        # On right triangles with legs h along the axes, x^2 is interpolated with the error
+        # x^2 - h x from the left end of each, whose mean square is h^4/30.
+        n = 5
+        points = numpy.array([[i / n, j / n, 0] for i in range(n + 1) for j in range(n + 1)])
+        at = [(n + 1) * i + j for i in range(n) for j in range(n)]
+        corners = numpy.array([face for v in at for face in (
+            (v, v + n + 1, v + n + 2), (v, v + n + 2, v + 1))])
+        measured = [measure.interpolation_error(corners, points, lambda x: x[..., 0] ** 2, rows)
+                    for rows in (8, 32)]
+        exact = n**-2 / 30**0.5
+        self.assertAlmostEqual(measured[0] / exact, 1, delta=0.02)
+        self.assertAlmostEqual(measured[1] / exact, 1, delta=0.002)
+
+
 @unittest.skipIf(vtk is None or numpy is None, "VTK is not there")
 class A_picture(unittest.TestCase):
     def test_with_a_palette_has_nearly_the_same_colours(self):

@@ -10,6 +10,7 @@
 # Needs python3-vtk9, and a display, which xvfb-run provides where there is none.
 import numpy
 from heat_map import surface
+from measure import interpolation_error
 from runs import arguments, number, per_cent_above, write_table
 from scene import (
     DIVERGING, color_scale, corners_and_points, draw, fitted, points_of, read_off, scale,
@@ -37,22 +38,6 @@ class Front:
     def __call__(self, points):
         distance = numpy.linalg.norm(points - self.centre, axis=-1) / self.diagonal
         return numpy.tanh((distance - self.radius) / self.width)
-
-
-def error(mesh, field, rows=8):
-    """The L2 norm of the field minus its linear interpolation, over that of one. Each face is cut
-    into rows^2 equal ones, at whose centroids both are evaluated."""
-    corners, points = corners_and_points(mesh)
-    p, u = points[corners], field(points)[corners]
-    area = numpy.linalg.norm(numpy.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1) / 2
-    total = numpy.zeros(len(corners))
-    for i in range(rows):
-        for j in range(2 * (rows - i) - 1):  # upright and turned ones in turn
-            third = 1 / 3 if j % 2 == 0 else 2 / 3
-            a, b = (i + third) / rows, (j // 2 + third) / rows
-            weight = numpy.array([1 - a - b, a, b])
-            total += (field(numpy.einsum("fkx,k->fx", p, weight)) - u @ weight) ** 2
-    return float(((total / rows**2 * area).sum() / area.sum()) ** 0.5)
 
 
 def write_solution(values, path):
@@ -84,7 +69,7 @@ def row(name, mesh, report, field):
     result, bound = report["output"], report["certificate"]["bound"]
     return (name, number(result["vertices"], 0), number(result["faces"], 0),
             number(result["Q_max"], 1), number(result["efficiency_index"], 3),
-            f"{error(mesh, field):.2g}",
+            f"{interpolation_error(*corners_and_points(mesh), field):.2g}",
             per_cent_above(100 * bound / report["input"]["diagonal"], 4))
 
 
