@@ -26,6 +26,14 @@ except ImportError:
     vtk = None
 
 
+def tables():
+    """The tables of the page between their markers, as lists of cells, by name."""
+    found = re.findall(r"<!-- table: (\w+) -->\n(.*?)<!-- end of the table -->",
+                       APPLICATIONS.read_text(), re.DOTALL)
+    return {name: [[cell.strip() for cell in line.strip("|").split("|")]
+                   for line in text.splitlines()] for name, text in found}
+
+
 class The_figures(unittest.TestCase):
     def test_are_all_made_by_one_program(self):
         maker = (FIGURES / "make_all.py").read_text()
@@ -43,16 +51,25 @@ class The_figures(unittest.TestCase):
                 self.assertLess(picture.stat().st_size, 400_000)
 
     def test_come_with_tables_that_are_filled(self):
-        tables = re.findall(r"<!-- table: (\w+) -->\n(.*?)<!-- end of the table -->",
-                            APPLICATIONS.read_text(), re.DOTALL)
-        self.assertGreater(len(tables), 5)
+        self.assertGreater(len(tables()), 5)
         sources = "".join(program.read_text() for program in FIGURES.glob("*.py"))
-        for name, table in tables:
+        for name, lines in tables().items():
             with self.subTest(table=name):
                 self.assertIn(f"{name}.md", sources)
-                lines = table.splitlines()
                 self.assertGreater(len(lines), 2)
-                self.assertEqual(len({line.count("|") for line in lines}), 1)
+                self.assertEqual(len({len(line) for line in lines}), 1)
+
+    def test_of_adaptation_have_the_error_of_a_fine_even_mesh_with_a_fifth_of_its_vertices(self):
+        # As the page says.
+        for name in ("adaptation", "solved_front"):
+            with self.subTest(table=name):
+                head, _, *rows = tables()[name]
+                size = head.index("np") if "np" in head else head.index("vertices")
+                rows = [(row[0].startswith("adapted"), float(row[size].replace(",", "")),
+                         float(row[head.index("L2 error")])) for row in rows]
+                vertices, error = max(row[1:] for row in rows if not row[0])
+                self.assertTrue(any(row[0] and row[2] <= error and 5 * row[1] <= vertices
+                                    for row in rows))
 
 
 @unittest.skipIf(numpy is None, "NumPy is not there")
