@@ -10,7 +10,6 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 FIGURES = ROOT / "doc/figures"
-APPLICATIONS = ROOT / "doc/manual/applications.md"
 SHARED = {"make_all", "measure", "palette", "runs", "scene"}
 sys.path.insert(0, str(FIGURES))
 sys.dont_write_bytecode = True
@@ -26,10 +25,14 @@ except ImportError:
     vtk = None
 
 
+def pages():
+    return "".join(page.read_text() for page in sorted((ROOT / "doc/manual").glob("*.md")))
+
+
 def tables():
-    """The tables of the page between their markers, as lists of cells, by name."""
+    """The tables of the manual between their markers, as lists of cells, by name."""
     found = re.findall(r"<!-- table: (\w+) -->\n(.*?)<!-- end of the table -->",
-                       APPLICATIONS.read_text(), re.DOTALL)
+                       pages(), re.DOTALL)
     return {name: [[cell.strip() for cell in line.strip("|").split("|")]
                    for line in text.splitlines()] for name, text in found}
 
@@ -43,11 +46,10 @@ class The_figures(unittest.TestCase):
                     self.assertIn(f'"{program.stem}"', maker)
 
     def test_are_small_and_shown(self):
-        pages = "".join(page.read_text() for page in (ROOT / "doc/manual").glob("*.md"))
-        pages += (ROOT / "README.md").read_text()
+        shown = pages() + (ROOT / "README.md").read_text()
         for picture in FIGURES.glob("*.png"):
             with self.subTest(picture=picture.name):
-                self.assertIn(f"figures/{picture.name})", pages)
+                self.assertIn(f"figures/{picture.name})", shown)
                 self.assertLess(picture.stat().st_size, 400_000)
 
     def test_come_with_tables_that_are_filled(self):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Makes all figures of the manual again, and the tables of doc/manual/applications.md:
+# Makes all figures of the manual again, and the tables between markers on its pages:
 #
 #   xvfb-run -a python3 make_all.py surety adapt_to_front models work_folder
 #
@@ -15,10 +15,10 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-PAGE = HERE.parent / "manual" / "applications.md"
+MANUAL = HERE.parent / "manual"
 MARKED = re.compile(r"(<!-- table: (\w+) -->\n)(.*?)(<!-- end of the table -->)", re.DOTALL)
-# The figures of section 6 of the paper: each program runs surety itself.
-WITH_TABLES = ("three_stages", "graded_meshes", "decimation", "adaptation")
+# Each of these programs runs surety itself. The first four are section 6 of the paper.
+WITH_TABLES = ("three_stages", "graded_meshes", "decimation", "adaptation", "expected")
 
 
 class Maker:
@@ -104,7 +104,7 @@ def picture(name):
     return str(HERE / f"{name}.png")
 
 
-def put_tables_in_page(folder):
+def put_tables_in_pages(folder):
     """Replaces what stands between the markers by the tables that have been made."""
 
     def table(match):
@@ -112,7 +112,11 @@ def put_tables_in_page(folder):
         made = path.read_text(encoding="utf-8") if path.exists() else match[3]
         return match[1] + made + match[4]
 
-    PAGE.write_text(MARKED.sub(table, PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+    for page in sorted(MANUAL.glob("*.md")):
+        text = page.read_text(encoding="utf-8")
+        made = MARKED.sub(table, text)
+        if made != text:
+            page.write_text(made, encoding="utf-8")
 
 
 def main(surety, front, models, folder, *wanted):
@@ -131,7 +135,7 @@ def main(surety, front, models, folder, *wanted):
                 make()
             except subprocess.CalledProcessError as error:
                 sys.exit(f"make_all.py: {name}: {error}")
-    put_tables_in_page(folder)
+    put_tables_in_pages(folder)
 
 
 if __name__ == "__main__":
