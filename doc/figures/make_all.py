@@ -45,6 +45,7 @@ class Maker:
         self.draw(program, self.surety, str(self.models), str(self.folder), str(HERE))
 
     def levels(self):
+        shutil.rmtree(self.made("levels"), ignore_errors=True)  # surety wants a new folder
         folder = self.run("hierarchy", self.model("bunny00"), "levels", "--format", "off", "-t",
                           "0.02%,0.1%,0.3%,1%")
         self.draw("levels", folder, picture("levels"), self.made("levels.md"))
