@@ -4,15 +4,10 @@
 # changes what it says, and nothing is left on disk when the command fails.
 import json
 import math
-import os
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
+from command_runs import Runs
 from info_runs import BAD_INPUT, USAGE, off_text, sphere
-
-SURETY = os.environ.get("SURETY", "surety")
 
 
 def solution_text(values):
@@ -30,20 +25,11 @@ def front(p, place=.2, width=.15):
     return math.tanh((p[2] - place) / width)
 
 
-class Adapt(unittest.TestCase):
+class Adapt(Runs):
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
+        super().setUp()
         (self.folder / "in.off").write_text(off_text(sphere()))
         (self.folder / "u.sol").write_text(solution_text([front(p) for p in sphere()[0]]))
-
-    def tearDown(self):
-        self.temporary.cleanup()
-
-    def surety(self, *arguments, status=0):
-        done = subprocess.run([SURETY, *arguments], cwd=self.folder, capture_output=True, text=True)
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done
 
     def report(self, *arguments, target=("--target-vertices", "300"), out="out.off"):
         self.surety("adapt", "in.off", "-o", out, "-t", "1%", "--solution", "u.sol", "--report",

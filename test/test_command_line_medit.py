@@ -2,16 +2,11 @@
 #
 # Medit's files through the command line: what a mesh generator says of vertices, edges and
 # triangles is kept and comes back, and files that are wrong are refused by line.
-import os
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
+from command_runs import Runs
 from info_runs import BAD_INPUT, sphere
 from medit_files import bytes_of, from_bytes, from_text, text_of
-
-SURETY = os.environ.get("SURETY", "surety")
 
 
 def cube(size=8):
@@ -88,19 +83,7 @@ def places(mesh, keyword, within=None):
     return set(result)
 
 
-class Medit(unittest.TestCase):
-    def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
-
-    def tearDown(self):
-        self.temporary.cleanup()
-
-    def surety(self, *arguments, status=0):
-        done = subprocess.run([SURETY, *arguments], cwd=self.folder, capture_output=True, text=True)
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done
-
+class Medit(Runs):
     def refused(self, content, pattern, name="bad.mesh"):
         data = content if isinstance(content, bytes) else content.encode()
         (self.folder / name).write_bytes(data)

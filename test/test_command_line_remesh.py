@@ -4,30 +4,16 @@
 # nothing is left on disk when the command fails.
 import json
 import math
-import os
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
+from command_runs import Runs
 from info_runs import BAD_INPUT, USAGE, off_text, sphere
 
-SURETY = os.environ.get("SURETY", "surety")
 
-
-class Remesh(unittest.TestCase):
+class Remesh(Runs):
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
+        super().setUp()
         (self.folder / "in.off").write_text(off_text(sphere()))
-
-    def tearDown(self):
-        self.temporary.cleanup()
-
-    def surety(self, *arguments, status=0):
-        done = subprocess.run([SURETY, *arguments], cwd=self.folder, capture_output=True, text=True)
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done
 
     def report(self, *arguments):
         self.surety("remesh", "in.off", "-o", "out.off", "--report", "r.json", *arguments)

@@ -4,15 +4,10 @@
 # sheets that meet still do so, and without the flag all of it is refused.
 import json
 import math
-import os
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
+from command_runs import Runs
 from info_runs import BAD_INPUT, off_text, sphere
-
-SURETY = os.environ.get("SURETY", "surety")
 
 
 def fan_of_sheets(sheets=3, n=12):
@@ -41,19 +36,7 @@ def read_off(path):
     return points, [[int(next(numbers)) for _ in range(int(next(numbers)))] for _ in range(faces)]
 
 
-class Repair(unittest.TestCase):
-    def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
-
-    def tearDown(self):
-        self.temporary.cleanup()
-
-    def surety(self, *arguments, status=0):
-        done = subprocess.run([SURETY, *arguments], cwd=self.folder, capture_output=True, text=True)
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done
-
+class Repair(Runs):
     def write(self, points, faces, name="in.off"):
         (self.folder / name).write_text(off_text((points, faces)))
 

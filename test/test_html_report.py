@@ -10,15 +10,13 @@ import re
 import shutil
 import struct
 import subprocess
-import tempfile
 import unittest
 import zlib
 from html.parser import HTMLParser
-from pathlib import Path
 
+from command_runs import Runs
 from info_runs import USAGE, off_text, sphere
 
-SURETY = os.environ.get("SURETY", "surety")
 # Without three.js the program must say so.
 HAS_VIEWER = os.environ.get("SURETY_HAS_VIEWER", "1") == "1"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -101,19 +99,10 @@ def turned(indices):
     return result
 
 
-class Html_report(unittest.TestCase):
+class Html_report(Runs):
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
+        super().setUp()
         (self.folder / "in.off").write_text(off_text(sphere()))
-
-    def tearDown(self):
-        self.temporary.cleanup()
-
-    def surety(self, *arguments, status=0):
-        done = subprocess.run([SURETY, *arguments], cwd=self.folder, capture_output=True, text=True)
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done
 
     def page(self, command="simplify", *arguments, file="in.off", tolerance="1%"):
         self.surety(command, file, "-o", "out.off", "-t", tolerance, "--report", "r.html",
