@@ -31,13 +31,30 @@ public:
     bool around(Index /*vertex*/, Index /*from*/, Index /*to*/) const { return true; }
   };
 
-  Foot closest(const Vector& p, Index start) const { return closest(p, start, Open()); }
-  /// The same, where the way from a face to the next leads `over` an edge or `around` a vertex that
-  /// lets it pass.
+  Foot closest(const Vector& p, Index start) const
+  {
+    return closest_around(p, foot_on(p, start), Open());
+  }
+  /// The same for points that may be many faces away, where the way from a face to the next leads
+  /// `over` an edge or `around` a vertex that lets it pass.
   template <class Ways>
   Foot closest(const Vector& p, Index start, const Ways& ways) const
   {
-    Foot best = straight_walk(p, start, ways);
+    return closest_around(p, straight_walk(p, start, ways), ways);
+  }
+
+  /// Any face at a vertex.
+  Index face_at(Index v) const
+  {
+    const auto faces = reference_.faces_of_edge(*reference_.edges_at(v).begin());
+    return faces[0] != none ? faces[0] : faces[1];
+  }
+
+private:
+  /// From a foot on to that on any face around, as long as that comes closer.
+  template <class Ways>
+  Foot closest_around(const Vector& p, Foot best, const Ways& ways) const
+  {
     for (bool closer = true; closer && !best.is_inside;) {
       closer = false;
       const Index from = best.face;
@@ -56,14 +73,6 @@ public:
     return best;
   }
 
-  /// Any face at a vertex.
-  Index face_at(Index v) const
-  {
-    const auto faces = reference_.faces_of_edge(*reference_.edges_at(v).begin());
-    return faces[0] != none ? faces[0] : faces[1];
-  }
-
-private:
   /// Over the edge that bears the closest point, as long as that comes closer: most of the way, at
   /// one face a step.
   template <class Ways>
