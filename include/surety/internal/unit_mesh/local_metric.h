@@ -20,6 +20,9 @@ namespace surety::internal::unit_mesh {
 
 using metric::Tensor;
 
+/// Edges between these metric lengths are unit.
+constexpr double shortest_unit = 0.7071067811865476, longest_unit = 1.4142135623730951;
+
 /// How much of the surface passes a vertex. The smoother one of two knows better what the surface
 /// between them wants.
 enum class Vertex_kind : unsigned char { smooth, ridge, corner };

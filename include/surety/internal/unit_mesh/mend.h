@@ -68,7 +68,7 @@ inline bool Editor::mend_by_relocation(Index v, Index f)
 
 inline bool Editor::mend_by_collapse(Index h)
 {
-  constexpr double longest_unit = 1.4142135623730951, bad = 3;
+  constexpr double bad = 3;
   make_collapse_disc(mesh_, h, disc_);
   if (check_collapse_topology(mesh_, disc_) != Verdict::accept) return false;
   const Apex apex = apex_of(disc_.apex);

@@ -15,9 +15,6 @@
 
 namespace surety::internal::unit_mesh {
 
-/// Edges between these metric lengths are unit.
-constexpr double shortest_unit = 0.7071067811865476, longest_unit = 1.4142135623730951;
-
 class Remesher
 {
 public:
