@@ -52,8 +52,15 @@ struct Size_law {
     return result;
   }
 
-  /// The length of an edge on a curve of features, which has no inside: the chord's constant.
-  double size_on_curve(double k) const { return size(k, 0); }
+  /// The length of an edge on a curve of features, with its ends on it. It has no inside that
+  /// could make up for what the chord cuts off, so that no smaller constant than a chord's will do.
+  double size_on_curve(double k) const
+  {
+    constexpr double chord = 1. / 8;
+    Size_law law = *this;
+    law.gap_constant = (std::max)(chord, gap_constant.value_or(chord));
+    return law.size(k, 0);
+  }
 };
 
 /// The range of sizes, and of the ratio between the two sizes at one place.

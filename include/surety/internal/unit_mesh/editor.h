@@ -95,12 +95,16 @@ public:
   /// to go, puts the other in a better place. Says why it could not.
   Verdict collapse(Index e, double longest);
   bool flip(Index e);
+  enum class Aim { length, shape };
   /// Moves a vertex to where its faces are better and its edges nearer to one; with free placement
   /// also along the normal, towards where its faces are as far on one side of T as on the other.
-  bool relocate(Index v);
+  /// Tries the place that makes edges unit, and if asked for it that which makes faces equilateral.
+  bool relocate(Index v, Aim aim);
   /// Makes the worst face around a bad one better, by the first operation that does: a flip, a
   /// relocation of a corner, a collapse.
   bool mend(Index f);
+  /// Makes an edge nearer to unit by moving an end of it.
+  bool mend_edge(Index e);
 
 private:
   struct Apex {
@@ -302,6 +306,14 @@ private:
     if (apex.stand.edge != none) return 0;
     return (offset_[mesh_.source(h)] + offset_[mesh_.target(h)]) / 2;
   }
+  bool begin_relocation(Index v);
+  Vector middle_on_curve(const Apex& from) const;
+  template <class Place>
+  Vector mean_place(const Apex& from, Place place) const;
+  double energy(const Apex& apex) const;
+  double excess(const Apex& apex) const;
+  template <class Steps, class Improve>
+  Verdict move_towards(const Vector& aim, const Apex& from, const Steps& steps, Improve improves);
   bool is_remedy(const Apex& apex) const
   {
     constexpr double share = .95;
@@ -381,7 +393,7 @@ inline bool Editor::lower_sizes(
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
   std::vector<bool> is_marked(share_.size(), false);
   for (const Index v : vertices) {
-    if (!mesh_.is_live_vertex(v) || mesh_.is_fixed(v) || is_marked[v]) continue;
+    if (!mesh_.is_live_vertex(v) || is_marked[v]) continue;
     is_marked[v] = true;
     if (measure_.least_size(metric_[v]) * factor < least) continue;
     set_share(v, share_[v] * factor);

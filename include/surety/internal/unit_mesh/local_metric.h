@@ -23,8 +23,8 @@ using metric::Tensor;
 /// Edges between these metric lengths are unit.
 constexpr double shortest_unit = 0.7071067811865476, longest_unit = 1.4142135623730951;
 
-/// How much of the surface passes a vertex. The smoother one of two knows better what the surface
-/// between them wants.
+/// How much of the surface passes a vertex. Where sizes depend on the direction, the smoother one
+/// of two knows better what the surface between them wants.
 enum class Vertex_kind : unsigned char { smooth, ridge, corner };
 
 /// A size, or tensors where sizes depend on the direction.
@@ -59,10 +59,15 @@ public:
   {
     return is_isotropic_ ? e.norm() / at.size : metric::length_in(at.metric, e);
   }
+  /// Whether both have a say in what is between them.
+  bool counts_both(const Local_metric& a, const Local_metric& b) const
+  {
+    return is_isotropic_ || a.kind == b.kind;
+  }
   /// Of the edge e from a to b.
   double length(const Vector& e, const Local_metric& a, const Local_metric& b) const
   {
-    if (a.kind != b.kind) return length_at(e, a.kind < b.kind ? a : b);
+    if (!counts_both(a, b)) return length_at(e, a.kind < b.kind ? a : b);
     if (is_isotropic_) {
       const double length = e.norm();
       return metric::length_of_linear_size(length / a.size, length / b.size);
@@ -77,7 +82,7 @@ public:
     return Eigen::SelfAdjointEigenSolver<Tensor>(at.sizes, Eigen::EigenvaluesOnly).eigenvalues()[0];
   }
 
-  /// Q of a triangle as the metric of its smoothest corners sees it.
+  /// Q of a triangle as it is, or as the metric of its smoothest corners sees it.
   double quality(const std::array<Vector, 3>& p, const std::array<const Local_metric*, 3>& at) const
   {
     const Vector ab = p[1] - p[0], ac = p[2] - p[0];
@@ -103,7 +108,6 @@ public:
       const Vector& p, const Vector& q, const Vector& x,
       const std::array<const Local_metric*, 3>& at) const
   {
-    constexpr double height = 0.8660254037844386;
     const Vector middle = (p + q) / 2;
     if (is_isotropic_) {
       const Vector e = unit(q - p), to_x = x - middle;
@@ -116,15 +120,29 @@ public:
     return middle + height * (sizes * unit(to_x - to_x.dot(e) * e));
   }
 
+  /// Where the apex of a triangle on the edge from p to q would make it equilateral, whatever its
+  /// size: on the side where x is.
+  Vector equilateral_apex(
+      const Vector& p, const Vector& q, const Vector& x,
+      const std::array<const Local_metric*, 3>& at) const
+  {
+    const Vector middle = (p + q) / 2;
+    if (is_isotropic_) {
+      const Vector e = q - p, to_x = x - middle;
+      const Vector direction = unit(e);
+      return middle + height * e.norm() * unit(to_x - to_x.dot(direction) * direction);
+    }
+    const Tensor sizes = mean_sizes(at);
+    const Tensor inverse = sizes.inverse();
+    const Vector e = inverse * (q - p), to_x = inverse * (x - middle), direction = unit(e);
+    return middle + height * e.norm() * (sizes * unit(to_x - to_x.dot(direction) * direction));
+  }
+
 private:
+  static constexpr double height = 0.8660254037844386; ///< of an equilateral triangle
   static double mean_size(const std::array<const Local_metric*, 3>& at)
   {
-    const Vertex_kind least = std::min({at[0]->kind, at[1]->kind, at[2]->kind});
-    double sum = 0;
-    int number = 0;
-    for (const Local_metric* one : at)
-      if (one->kind == least) sum += one->size, ++number;
-    return sum / number;
+    return (at[0]->size + at[1]->size + at[2]->size) / 3;
   }
   static double quality_of(const Vector& ab, const Vector& ac)
   {

@@ -83,6 +83,8 @@ public:
       if (passes_ > 0 && !is_marked && changes < few) break;
     }
     remesher_.set_fraction(.8);
+    if (!remesher_.is_cancelled()) remesher_.settle();
+    give_way();
     if (!remesher_.is_cancelled()) remesher_.polish();
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Mends bad faces. Flips and relocations lessen a sum over faces, and few bad ones do not weigh in
-// it: here the worst face alone counts.
+// Mends bad faces and edges. Flips and relocations lessen a sum over faces, and few bad ones do not
+// weigh in it: here the worst face alone counts, and of edges what they are too long or too short.
 #ifndef SURETY_INTERNAL_UNIT_MESH_MEND_H
 #define SURETY_INTERNAL_UNIT_MESH_MEND_H
 
@@ -42,11 +42,8 @@ inline bool Editor::mend_by_flip(Index e)
 /// Towards where it would make the face equilateral.
 inline bool Editor::mend_by_relocation(Index v, Index f)
 {
-  if (mesh_.is_fixed(v)) return false;
-  make_relocation_disc(mesh_, v, disc_);
+  if (!begin_relocation(v)) return false;
   const Apex from = apex_of(v);
-  const bool is_on_curve = mesh_.is_on_feature(v);
-  if (is_on_curve && stand_[v].edge == none) return false;
   Vector aim = from.point;
   for_each_new_face([&](const std::array<Index, 3>& corners) {
     if (!mesh_.has_vertex(f, corners[1]) || !mesh_.has_vertex(f, corners[2])) return;
@@ -54,16 +51,9 @@ inline bool Editor::mend_by_relocation(Index v, Index f)
         mesh_.point(corners[1]), mesh_.point(corners[2]), from.point,
         {&metric_[v], &metric_[corners[1]], &metric_[corners[2]]});
   });
-  for (const double step : {.8, .4, .2, .1}) {
-    const Vector target = from.point + step * (aim - from.point);
-    const Standpoint stand = is_on_curve ? ground_.nearest_on_curve(target, stand_[v].edge)
-                                         : ground_.nearest(target, stand_[v].face);
-    const Apex apex = apex_above(stand, share_[v], offset_[v]);
-    if (!is_remedy(apex) || check(apex) != Verdict::accept) continue;
-    move_apex(apex);
-    return true;
-  }
-  return false;
+  constexpr std::array<double, 4> steps{.8, .4, .2, .1};
+  const auto improves = [this](const Apex& apex) { return is_remedy(apex); };
+  return move_towards(aim, from, steps, improves) == Verdict::accept;
 }
 
 inline bool Editor::mend_by_collapse(Index h)
@@ -77,6 +67,39 @@ inline bool Editor::mend_by_collapse(Index h)
     return false;
   make_collapse(h);
   return true;
+}
+
+/// How far, in logarithms, the edges around are from being unit.
+inline double Editor::excess(const Apex& apex) const
+{
+  constexpr double limit = .345; // a little below the logarithm of sqrt(2)
+  double sum = 0;
+  for (const Index r : disc_.ring)
+    if (!mesh_.is_ghost_vertex(r)) sum += std::max(0., std::abs(std::log(length(r, apex))) - limit);
+  return sum;
+}
+
+inline bool Editor::mend_edge(Index e)
+{
+  constexpr double good_enough = 1.6, gain = .1;
+  const double before = length(e);
+  for (const Index h : {2 * e, 2 * e + 1}) {
+    if (!begin_relocation(mesh_.source(h))) continue;
+    const Apex from = apex_of(mesh_.source(h));
+    const double most = (1 - gain) * excess(from);
+    const double worst = std::max(good_enough, worst_old_quality());
+    const auto improves
+        = [&](const Apex& apex) { return excess(apex) < most && worst_new_quality(apex) <= worst; };
+    // To well within the limits, or just so.
+    for (const double shortest : {.85, .78, .72}) {
+      const double wanted = before < 1 ? shortest : 1 / shortest;
+      const Vector& end = mesh_.point(mesh_.target(h));
+      const Vector aim = end + wanted / before * (from.point - end);
+      constexpr std::array<double, 1> whole{1.};
+      if (move_towards(aim, from, whole, improves) == Verdict::accept) return true;
+    }
+  }
+  return false;
 }
 
 } // namespace surety::internal::unit_mesh

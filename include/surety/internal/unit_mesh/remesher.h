@@ -8,6 +8,7 @@
 #include <surety/internal/unit_mesh/editor.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <queue>
 #include <utility>
@@ -60,7 +61,8 @@ public:
     return splits + collapses;
   }
 
-  void polish()
+  /// Lengths once more, after the shapes have settled.
+  void settle()
   {
     for (int round = 0; round < 4; ++round) {
       flip();
@@ -72,12 +74,20 @@ public:
       flip();
       relocate();
     }
+  }
+
+  /// Only better: no vertex comes or goes but to mend a face.
+  void polish()
+  {
     for (int round = 0; round < 4; ++round) {
       mend();
       flip();
-      relocate();
+      relocate(Editor::Aim::shape);
+      mend_edges();
     }
     mend();
+    for (int round = 0; round < 3; ++round)
+      if (mend_edges() == 0) break;
   }
 
 private:
@@ -104,13 +114,18 @@ private:
     return edges;
   }
 
-  /// Longest first.
+  /// The worst or the longest first.
+  static void sort_descending(std::vector<Entry>& entries)
+  {
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+      return a.first > b.first || (a.first == b.first && a.second < b.second);
+    });
+  }
+
   std::size_t split(double above)
   {
     std::vector<Entry> edges = edges_of_length([&](double length) { return length > above; });
-    std::sort(edges.begin(), edges.end(), [](const Entry& a, const Entry& b) {
-      return a.first > b.first || (a.first == b.first && a.second < b.second);
-    });
+    sort_descending(edges);
     std::size_t done = 0;
     for (const auto& [length, e] : edges) {
       if (!may_go_on()) break;
@@ -178,23 +193,33 @@ private:
     }
     return done;
   }
-  std::size_t relocate()
+  std::size_t relocate(Editor::Aim aim = Editor::Aim::length)
   {
-    return for_each_vertex([this](Index v) { return editor_.relocate(v); });
+    return for_each_vertex([&](Index v) { return editor_.relocate(v, aim); });
   }
-  /// Worst first.
+  static bool is_unit(double length) { return length >= shortest_unit && length <= longest_unit; }
+  std::size_t mend_edges()
+  {
+    std::vector<Entry> edges = edges_of_length([](double length) { return !is_unit(length); });
+    for (Entry& entry : edges) entry.first = std::abs(std::log(entry.first));
+    sort_descending(edges);
+    std::size_t done = 0;
+    for (const auto& [excess, e] : edges) {
+      if (!may_go_on()) break;
+      if (!is_unit(editor_.length(e)) && editor_.mend_edge(e)) ++done;
+    }
+    return done;
+  }
   std::size_t mend()
   {
-    constexpr double good_enough = 1.6;
+    constexpr double good_enough = 1.5;
     std::vector<Entry> faces;
     for (Index f = 0; f < editor_.mesh().number_of_real_faces(); ++f) {
       if (!editor_.mesh().is_live_face(f)) continue;
       const double quality = editor_.quality(f);
       if (quality > good_enough) faces.emplace_back(quality, f);
     }
-    std::sort(faces.begin(), faces.end(), [](const Entry& a, const Entry& b) {
-      return a.first > b.first || (a.first == b.first && a.second < b.second);
-    });
+    sort_descending(faces);
     std::size_t done = 0;
     for (const auto& [quality, f] : faces) {
       if (!may_go_on()) break;

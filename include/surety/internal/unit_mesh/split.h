@@ -62,7 +62,7 @@ inline std::optional<Editor::Apex> Editor::middle_of(Index e) const
   const Index a = mesh_.source(2 * e), b = mesh_.target(2 * e);
   const Vector along = mesh_.point(b) - mesh_.point(a);
   double t = .5;
-  if (metric_[a].kind == metric_[b].kind) {
+  if (measure_.counts_both(metric_[a], metric_[b])) {
     // Sizes are linear between a and b; r is their ratio.
     const double r = measure_.length_at(along, metric_[a]) / measure_.length_at(along, metric_[b]);
     if (std::abs(r - 1) > 1e-6) t = (std::sqrt(r) - 1) / (r - 1);
