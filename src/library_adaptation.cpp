@@ -60,6 +60,7 @@ Adaptation adapt(
                        .background_metric(background)
                        .placement(r.placement)
                        .fewest_faces(r.fewest_faces)
+                       .proximity(r.limits_proximity && !r.fewest_faces)
                        .gradation(r.gradation)
                        .minimum_size(r.minimum_size)
                        .maximum_size(r.maximum_size)

@@ -18,7 +18,8 @@ struct Remesh_controls {
   Metric_kind kind = internal::defaults::remesh_metric_kind;
   Placement placement = internal::defaults::unit_mesh_placement;
   bool fewest_faces = internal::defaults::fewest_faces;
-  double gradation = 0; ///< 0: the library's choice
+  bool limits_proximity = true; ///< unless few faces are preferred
+  double gradation = 0;         ///< 0: the library's choice
   double minimum_size = 0, maximum_size = 0;
   double maximum_aspect_ratio = internal::defaults::maximum_aspect_ratio;
   unsigned iterations = internal::defaults::unit_mesh_iterations;
@@ -32,6 +33,7 @@ inline auto remesh_parameters(
   return parameters::metric_kind(controls.kind)
       .placement(controls.placement)
       .fewest_faces(controls.fewest_faces)
+      .proximity(controls.limits_proximity && !controls.fewest_faces)
       .gradation(controls.gradation)
       .minimum_size(controls.minimum_size)
       .maximum_size(controls.maximum_size)

@@ -226,6 +226,7 @@ Json Remesh::describe() const
       = {{"metric", name_of(controls.kind, names_of_metrics())},
          {"placement", name_of(controls.placement, names_of_placements())},
          {"fewest_faces", controls.fewest_faces},
+         {"proximity", controls.limits_proximity && !controls.fewest_faces},
          {"gradation", controls.gradation},
          {"minimum_size", controls.minimum_size},
          {"maximum_size", controls.maximum_size},
@@ -276,6 +277,9 @@ void add_size_options(CLI::App& command, Remesh& remesh)
   command.add_flag(
       "--fewest", remesh.controls.fewest_faces,
       "prefer few faces to a mesh that follows the curvature closely");
+  command.add_flag(
+      "!--no-proximity", remesh.controls.limits_proximity,
+      "do not lower isotropic sizes where features are near to each other; --fewest implies it");
   command
       .add_option(
           "--gradation", remesh.controls.gradation,

@@ -72,6 +72,7 @@ auto full_chain()
       .size_field(4.5f)
       .length_rule(Length_rule::simpson)
       .gradation(1.75)
+      .proximity(false)
       .smoothing_rounds(6u)
       .curvature_method(Curvature_method::five_coefficients)
       .noise_floor(0.375);
@@ -109,6 +110,7 @@ void expect_full_chain(const Np& np)
   EXPECT_EQ(get_parameter(np, tag::size_field), 4.5f);
   EXPECT_EQ(get_parameter(np, tag::length_rule), Length_rule::simpson);
   EXPECT_EQ(get_parameter(np, tag::gradation), 1.75);
+  EXPECT_FALSE(get_parameter(np, tag::proximity));
   EXPECT_EQ(get_parameter(np, tag::smoothing_rounds), 6u);
   EXPECT_EQ(get_parameter(np, tag::curvature_method), Curvature_method::five_coefficients);
   EXPECT_EQ(get_parameter(np, tag::noise_floor), 0.375);
@@ -153,6 +155,7 @@ TEST(Parameters, each_can_start_a_chain)
   EXPECT_EQ(
       get_parameter(p::length_rule(Length_rule::simpson), tag::length_rule), Length_rule::simpson);
   EXPECT_EQ(get_parameter(p::gradation(1.75), tag::gradation), 1.75);
+  EXPECT_FALSE(get_parameter(p::proximity(false), tag::proximity));
   EXPECT_EQ(get_parameter(p::smoothing_rounds(6u), tag::smoothing_rounds), 6u);
   EXPECT_EQ(get_parameter(p::target_vertices(900), tag::target_vertices), 900);
   EXPECT_EQ(get_parameter(p::target_error(0.5), tag::target_error), 0.5);

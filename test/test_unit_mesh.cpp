@@ -215,6 +215,20 @@ TEST(Remesh, takes_fewer_faces_when_asked)
   EXPECT_LT(few.number_of_faces(), close.number_of_faces());
 }
 
+TEST(Remesh, fits_round_faces_into_narrow_strips)
+{
+  const Mesh plate = scaled(cube(), 4, 4, .2);
+  const double tolerance = .001 * diagonal_of(plate);
+  Mesh mesh = plate, crowded = plate;
+  const Remeshing answer = remesh(mesh, tolerance);
+  expect_promises(plate, mesh, tolerance, answer.unit_mesh);
+  EXPECT_GE(answer.unit_mesh.fit.unit_edges, 98);
+  EXPECT_LE(answer.unit_mesh.fit.Q_max, 2);
+  const Remeshing other = remesh(crowded, tolerance, parameters::proximity(false));
+  EXPECT_LT(crowded.number_of_faces(), mesh.number_of_faces());
+  EXPECT_GT(other.unit_mesh.fit.Q_avg, answer.unit_mesh.fit.Q_avg);
+}
+
 TEST(Remesh, is_deterministic_and_free_of_scale)
 {
   const Mesh shape = torus(48, 24);

@@ -111,6 +111,7 @@ struct smoothing_rounds_t {};
 struct tolerance_t {};
 struct geometric_support_t {};
 struct fewest_faces_t {};
+struct proximity_t {};
 struct background_metric_t {};
 struct target_vertices_t {};
 struct target_error_t {};
@@ -155,6 +156,7 @@ inline constexpr smoothing_rounds_t smoothing_rounds{};
 inline constexpr tolerance_t tolerance{};
 inline constexpr geometric_support_t geometric_support{};
 inline constexpr fewest_faces_t fewest_faces{};
+inline constexpr proximity_t proximity{};
 inline constexpr background_metric_t background_metric{};
 inline constexpr target_vertices_t target_vertices{};
 inline constexpr target_error_t target_error{};
@@ -308,6 +310,7 @@ public:
     return then<internal::geometric_support_t>(support);
   }
   auto fewest_faces(bool fewest) const { return then<internal::fewest_faces_t>(fewest); }
+  auto proximity(bool limits) const { return then<internal::proximity_t>(limits); }
   auto background_metric(const Background_metric& metric) const
   {
     return then<internal::background_metric_t>(&metric);
@@ -709,6 +712,14 @@ auto geometric_support(const Support& support)
 inline auto fewest_faces(bool fewest)
 {
   return Named_parameters<bool, internal::fewest_faces_t>(fewest);
+}
+
+/// \brief Whether `remesh()` lowers isotropic sizes where features are near to each other.
+///
+/// As `limit_proximity()` does. Default: `true`; `false` with `fewest_faces`.
+inline auto proximity(bool limits)
+{
+  return Named_parameters<bool, internal::proximity_t>(limits);
 }
 
 /// \brief A metric on another mesh of the same surface, which a unit mesh respects as well

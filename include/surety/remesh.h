@@ -11,6 +11,7 @@
 #include <surety/geometric_support.h>
 #include <surety/gradation.h>
 #include <surety/metric.h>
+#include <surety/proximity.h>
 #include <surety/unit_mesh.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -59,8 +60,8 @@ Features features_to_remesh(const Mesh& mesh, double length, const NamedParamete
 /// The metric that a tolerance asks for, intersected with the sizes that the user asks for.
 template <class Mesh, class NamedParameters>
 Metric_field metric_to_remesh(
-    const Mesh& mesh, const Curvature_field& curvature, double length, bool is_for_fewest,
-    double beta, const NamedParameters& np)
+    const Mesh& mesh, const Features& features, const Curvature_field& curvature, double length,
+    bool is_for_fewest, double beta, const NamedParameters& np)
 {
   using CGAL::parameters::choose_parameter;
   using CGAL::parameters::get_parameter;
@@ -87,6 +88,12 @@ Metric_field metric_to_remesh(
   const auto make = [&](const auto& all) {
     Metric_field metric
         = make_geometric_metric(mesh, curvature, all.vertex_point_map(vertex_points(mesh, np)));
+    const bool wants_room = choose_parameter(get_parameter(np, proximity), !is_for_fewest);
+    if (wants_room && metric.kind() == Metric_kind::isotropic)
+      limit_proximity(
+          mesh, metric, features,
+          parameters::gradation(beta).minimum_size(least).vertex_point_map(
+              vertex_points(mesh, np)));
     limit_gradation(
         mesh, metric, parameters::gradation(beta).vertex_point_map(vertex_points(mesh, np)));
     return metric;
@@ -140,8 +147,14 @@ Metric_field metric_to_remesh(
 ///     \cgalParamType{`double`, at least 1}
 ///     \cgalParamDefault{0: 1.3; 1.75 for fewest faces}
 ///   \cgalParamNEnd
+///   \cgalParamNBegin{proximity}
+///     \cgalParamDescription{whether isotropic sizes are lowered where features are near to each
+///       other, as `limit_proximity()` does; anisotropic ones never are}
+///     \cgalParamType{`bool`}
+///     \cgalParamDefault{`true`; `false` for fewest faces}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{minimum_size}
-///     \cgalParamDescription{the least size that curvature asks for}
+///     \cgalParamDescription{the least size that curvature or proximity asks for}
 ///     \cgalParamType{`double`, a length in mesh units, positive}
 ///     \cgalParamDefault{0: six times the tolerance; where the tolerance asks for less, down to a
 ///       third of that}
@@ -188,7 +201,7 @@ Remeshing remesh(
   Curvature_field curvature = estimate_curvatures(
       mesh, features, parameters::noise_floor(tolerance / 3).vertex_point_map(points));
   Metric_field metric
-      = internal::metric_to_remesh(mesh, curvature, tolerance, is_for_fewest, beta, np);
+      = internal::metric_to_remesh(mesh, features, curvature, tolerance, is_for_fewest, beta, np);
   Geometric_support support = make_geometric_support(
       mesh, tolerance, features, curvature, CGAL::parameters::vertex_point_map(points));
   const double least = internal::positive_or(

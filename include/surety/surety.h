@@ -21,13 +21,14 @@
 #include <surety/metric_fit.h>
 #include <surety/operations.h>
 #include <surety/parameters.h>
+#include <surety/proximity.h>
 #include <surety/remesh.h>
 #include <surety/solution_metric.h>
 #include <surety/statistics.h>
 #include <surety/support_on_geometric_mesh.h>
+#include <surety/support_tessellation.h>
 #include <surety/transfer.h>
 #include <surety/unit_mesh.h>
-#include <surety/support_tessellation.h>
 #include <surety/version.h>
 
 #endif // SURETY_SURETY_H
