@@ -707,8 +707,8 @@ auto geometric_support(const Support& support)
 
 /// \brief Whether `remesh()` prefers few faces to a mesh that follows the curvature closely.
 ///
-/// Sizes are larger by a factor of 1.4 then, and grow faster: the tolerance decides where they are
-/// too large. Default: `false`.
+/// Sizes are larger then, by a factor of 1.9 or of 1.3 if they depend on the direction, and grow
+/// faster: the tolerance decides where they are too large. Default: `false`.
 inline auto fewest_faces(bool fewest)
 {
   return Named_parameters<bool, internal::fewest_faces_t>(fewest);

@@ -35,7 +35,14 @@ namespace internal {
 /// Gap over curvature times size squared. The triangle's own constant, 1/6 to 1/8, would have every
 /// face within the tolerance of a smooth surface that its vertices lie on. Vertices that may leave
 /// it have twice the room, and the bound decides in the end.
-constexpr double remesh_gap_constant = 1. / 12, remesh_gap_constant_for_fewest = 1. / 32;
+constexpr double remesh_gap_constant = 1. / 12;
+/// The tolerance stops isotropic sizes much sooner: where it does not, they may be as large as
+/// this. Stretched faces follow a larger metric down to where fewer than 70 % of the edges are unit
+/// in it.
+inline double remesh_gap_constant_for_fewest(Metric_kind kind)
+{
+  return kind == Metric_kind::isotropic ? 1. / 45 : 1. / 20;
+}
 constexpr double remesh_gradation_for_fewest = 1.75;
 constexpr double remesh_least_size = 6; ///< times the tolerance
 
@@ -65,9 +72,11 @@ Metric_field metric_to_remesh(
 {
   using CGAL::parameters::choose_parameter;
   using CGAL::parameters::get_parameter;
+  const Metric_kind kind
+      = choose_parameter(get_parameter(np, metric_kind), defaults::remesh_metric_kind);
   const double constant = choose_parameter(
       get_parameter(np, gap_constant),
-      is_for_fewest ? remesh_gap_constant_for_fewest : remesh_gap_constant);
+      is_for_fewest ? remesh_gap_constant_for_fewest(kind) : remesh_gap_constant);
   const auto box = CGAL::Polygon_mesh_processing::bbox(mesh, as_cgal(np));
   const double diagonal
       = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
@@ -78,8 +87,7 @@ Metric_field metric_to_remesh(
       (std::min)(remesh_least_size * length, largest), "minimum_size");
   const auto sizes
       = parameters::metric_tolerance(length)
-            .metric_kind(
-                choose_parameter(get_parameter(np, metric_kind), defaults::remesh_metric_kind))
+            .metric_kind(kind)
             .gap_constant(constant)
             .minimum_size(least)
             .maximum_size(largest)
@@ -135,7 +143,7 @@ Metric_field metric_to_remesh(
 ///   \cgalParamNBegin{gap_constant}
 ///     \cgalParamDescription{gap over curvature times size squared}
 ///     \cgalParamType{`double`, positive}
-///     \cgalParamDefault{1/12; 1/32 for fewest faces}
+///     \cgalParamDefault{1/12; 1/45 for fewest faces, 1/20 if they are anisotropic}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{fewest_faces}
 ///     \cgalParamDescription{prefer few faces to a mesh that follows the curvature closely}
