@@ -41,11 +41,12 @@ public:
     flip();
     // Each pass halves what is long; the longest edge of a part can be a thousand units.
     constexpr int most_passes = 20;
+    constexpr std::size_t few = 20;
     for (int pass = 0; pass < most_passes && !is_cancelled_; ++pass) {
       const std::size_t splits = split(2);
       collapse(.3, 2);
       flip();
-      if (splits == 0) break;
+      if (splits < few) break;
       relocate();
     }
   }
@@ -61,13 +62,9 @@ public:
     return splits + collapses;
   }
 
-  /// Lengths once more, after the shapes have settled.
+  /// Lengths once more, with the limits of unit edges for collapses, too.
   void settle()
   {
-    for (int round = 0; round < 4; ++round) {
-      flip();
-      relocate();
-    }
     for (int round = 0; round < 2; ++round) {
       collapse(shortest_unit, longest_unit);
       split(longest_unit);
