@@ -2,6 +2,7 @@
 //
 // surety adapt: read a mesh and a field, remesh for both, verify independently, write. Nothing
 // appears on disk before everything has succeeded.
+#include "attributes.h"
 #include "commands.h"
 #include "controls.h"
 #include "html_report.h"
@@ -60,6 +61,7 @@ private:
   std::optional<Output_files> files_;
   Stopwatch watch_;
   Mesh input_mesh_, output_mesh_, background_mesh_;
+  Attributes attributes_, carried_;
   std::vector<double> values_;
   Mesh_statistics before_, after_;
   double length_ = 0;
@@ -103,7 +105,8 @@ void Adapt::announce_outputs()
 
 void Adapt::read()
 {
-  input_mesh_ = read_mesh(input, reading);
+  Repairs repairs;
+  input_mesh_ = read_mesh(input, reading, repairs, attributes_);
   if (!background.empty()) background_mesh_ = read_mesh(background, reading);
   read_values();
   watch_.lap("read");
@@ -175,6 +178,8 @@ void Adapt::adapt_input()
         output_mesh_, features, length_,
         Carried_field{is_same ? input_mesh_ : background_mesh_, behind, values_}, controls,
         Visitor(bar));
+    if (holds_attributes(extension_of(output)))
+      carried_ = carry_attributes(attributes_, input_mesh_, output_mesh_);
   } catch (const Invalid_input& error) {
     report_problem(error);
   }
@@ -210,7 +215,7 @@ void Adapt::write()
   const Deviation deviation{
       output_mesh_.add_property_map<Mesh::Face_index, double>("f:deviation", 0).first, length_};
   files_->write(output, [&](std::ostream& stream) {
-    write_mesh(stream, extension_of(output), output_mesh_, deviation);
+    write_mesh(stream, extension_of(output), output_mesh_, deviation, carried_);
   });
   watch_.lap("write");
   if (!report.empty())
@@ -231,6 +236,7 @@ Json Adapt::describe() const
       = {{"vertices_asked_for", result_->vertices_for_field},
          {"vertices_after_gradation", result_->vertices_for_graded_field}};
   json["output"] = to_json(output, after_);
+  if (!carried_.is_empty()) json["output"]["attributes"] = names_of(carried_);
   json["output"]["unit_edges"] = made.fit.unit_edges;
   json["output"]["efficiency_index"] = made.fit.efficiency_index;
   json["output"]["metric"] = to_json(made.fit);
@@ -272,7 +278,8 @@ void Adapt::print() const
             << " vertices, " << std::llround(result_->vertices_for_graded_field)
             << " with its gradation limited\n"
             << output << '\n'
-            << to_text(after_, "  ") << "  unit edges: " << made.fit.unit_edges
+            << to_text(after_, "  ") << to_text(attributes_, carried_, "  ")
+            << "  unit edges: " << made.fit.unit_edges
             << " %\n  efficiency index: " << made.fit.efficiency_index << '\n'
             << "certificate\n  tolerance " << length_ << " (" << 100 * length_ / before_.diagonal
             << " % of the diagonal)\n  proven: no point of either surface is farther than "

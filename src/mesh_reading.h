@@ -4,6 +4,7 @@
 #ifndef SURETY_TOOL_MESH_READING_H
 #define SURETY_TOOL_MESH_READING_H
 
+#include "attributes.h"
 #include "mesh.h"
 #include "repair.h"
 
@@ -23,6 +24,9 @@ struct Reading {
 Mesh read_mesh(const std::string& file, const Reading& options);
 /// The same; adds what was repaired.
 Mesh read_mesh(const std::string& file, const Reading& options, Repairs& repairs);
+/// The same; also gives the colours, normals and texture coordinates of its corners.
+Mesh read_mesh(
+    const std::string& file, const Reading& options, Repairs& repairs, Attributes& attributes);
 
 /// The triangles of a file as a mesh that serves to measure distances: if they are no manifold
 /// surface, or not orientable, or degenerate, they do not hang together, which changes no distance.

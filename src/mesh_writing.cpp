@@ -3,6 +3,7 @@
 // CGAL's writers for OFF, OBJ, PLY and STL, and ours for the others.
 #include "mesh_writing.h"
 
+#include "attribute_writing.h"
 #include "colors.h"
 #include "marks.h"
 #include "medit.h"
@@ -49,7 +50,7 @@ std::vector<double> qualities(const Mesh& mesh)
 }
 
 /// PLY writes all properties of a mesh: this copy has just those that the file shall have.
-Mesh heat_map(const Mesh& mesh, const Deviation& deviation)
+Mesh heat_map(const Mesh& mesh, const Deviation& deviation, const Attributes& attributes)
 {
   Mesh result;
   for (const auto v : mesh.vertices()) result.add_vertex(mesh.point(v));
@@ -59,13 +60,16 @@ Mesh heat_map(const Mesh& mesh, const Deviation& deviation)
   }
   const auto bound = result.add_property_map<Face, double>("f:deviation", 0).first;
   const auto shape = result.add_property_map<Face, double>("f:quality", 0).first;
-  const auto color = result.add_property_map<Face, CGAL::IO::Color>("f:color").first;
   const auto all_bounds = bounds(mesh, deviation), all_shapes = qualities(mesh);
   for (const Face face : result.faces()) {
     put(bound, face, all_bounds[face]);
     put(shape, face, all_shapes[face]);
-    put(color, face, heat(all_bounds[face] / deviation.tolerance));
   }
+  add_ply_properties(result, attributes, mesh);
+  if (attributes.color) return result;
+  const auto color = result.add_property_map<Face, CGAL::IO::Color>("f:color").first;
+  for (const Face face : result.faces())
+    put(color, face, heat(all_bounds[face] / deviation.tolerance));
   return result;
 }
 
@@ -102,22 +106,23 @@ bool has_float_coordinates(const Mesh& mesh)
 
 void write_mesh(
     std::ostream& stream, const std::string& extension, const Mesh& mesh,
-    const Deviation& deviation)
+    const Deviation& deviation, const Attributes& attributes)
 {
   stream.precision(17);
   if (extension == "off") CGAL::IO::write_OFF(stream, mesh);
-  if (extension == "obj") CGAL::IO::write_OBJ(stream, mesh);
+  if (extension == "obj" && attributes.is_empty()) CGAL::IO::write_OBJ(stream, mesh);
+  if (extension == "obj" && !attributes.is_empty()) write_obj(stream, mesh, attributes);
   if (extension == "stl") write_stl(stream, mesh);
   if (extension == "mesh") write_medit_text(stream, to_soup(mesh));
   if (extension == "meshb") write_medit_binary(stream, to_soup(mesh));
   if (extension == "vtp") {
     write_vtp(
-        stream, mesh, {},
+        stream, mesh, vtp_arrays(attributes, mesh),
         {{"deviation", 1, bounds(mesh, deviation)}, {"quality", 1, qualities(mesh)}}, "deviation");
   }
   if (extension == "ply") {
     CGAL::IO::set_binary_mode(stream);
-    CGAL::IO::write_PLY(stream, heat_map(mesh, deviation));
+    CGAL::IO::write_PLY(stream, heat_map(mesh, deviation, attributes));
   }
 }
 

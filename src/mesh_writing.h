@@ -5,6 +5,7 @@
 #ifndef SURETY_TOOL_MESH_WRITING_H
 #define SURETY_TOOL_MESH_WRITING_H
 
+#include "attributes.h"
 #include "mesh.h"
 
 #include <iosfwd>
@@ -28,10 +29,12 @@ struct Deviation {
 };
 
 /// Writes a mesh. PLY and VTP also carry the deviation and the quality of each face; PLY shows the
-/// former as colours, from dark (0) to bright (the tolerance). Medit's files have what is marked.
+/// former as colours, from dark (0) to bright (the tolerance), unless the vertices have colours.
+/// Medit's files have what is marked. PLY, OBJ and VTP have the attributes: OBJ those of each
+/// corner, the others one value a vertex.
 void write_mesh(
     std::ostream& stream, const std::string& extension, const Mesh& mesh,
-    const Deviation& deviation);
+    const Deviation& deviation, const Attributes& attributes = {});
 
 } // namespace surety::tool
 

@@ -2,6 +2,7 @@
 //
 // surety remesh: read, remesh for simulation, verify independently, write. Nothing appears on disk
 // before everything has succeeded.
+#include "attributes.h"
 #include "commands.h"
 #include "controls.h"
 #include "html_report.h"
@@ -58,6 +59,7 @@ private:
   Stopwatch watch_;
   Mesh input_mesh_, output_mesh_;
   Repairs repairs_;
+  Attributes attributes_, carried_;
   Mesh_statistics before_, after_;
   double length_ = 0;
   std::size_t ridges_ = 0, corners_ = 0;
@@ -97,7 +99,7 @@ void Remesh::announce_outputs()
 
 void Remesh::read()
 {
-  input_mesh_ = read_mesh(input, reading, repairs_);
+  input_mesh_ = read_mesh(input, reading, repairs_, attributes_);
   watch_.lap("read");
   try {
     before_ = mesh_statistics(input_mesh_);
@@ -144,6 +146,8 @@ void Remesh::remesh_input()
         = remesh(
               output_mesh_, features, length_, remesh_parameters(controls, sizes(), Visitor(bar)))
               .unit_mesh;
+    if (holds_attributes(extension_of(output)))
+      carried_ = carry_attributes(attributes_, input_mesh_, output_mesh_);
     if (is_medit(extension_of(output))) {
       mark_features(input_mesh_, features);
       carry_marks(input_mesh_, features, output_mesh_);
@@ -185,7 +189,7 @@ void Remesh::write()
   const Deviation deviation{
       output_mesh_.add_property_map<Mesh::Face_index, double>("f:deviation", 0).first, length_};
   files_->write(output, [&](std::ostream& stream) {
-    write_mesh(stream, extension_of(output), output_mesh_, deviation);
+    write_mesh(stream, extension_of(output), output_mesh_, deviation, carried_);
   });
   watch_.lap("write");
   if (!report.empty())
@@ -199,6 +203,7 @@ void Remesh::write()
 Json Remesh::describe_output() const
 {
   Json json = to_json(output, after_);
+  if (!carried_.is_empty()) json["attributes"] = names_of(carried_);
   json["unit_edges"] = result_->fit.unit_edges;
   json["efficiency_index"] = result_->fit.efficiency_index;
   json["metric"] = to_json(result_->fit);
@@ -248,8 +253,9 @@ void Remesh::print() const
             << "  features: " << to_text(ridges_) << " ridge edges, " << to_text(corners_)
             << " corners\n"
             << output << '\n'
-            << to_text(after_, "  ") << "  unit edges: " << fit.unit_edges << " % ("
-            << given.unit_edges << " % in the metric before the tolerance made it smaller)\n"
+            << to_text(after_, "  ") << to_text(attributes_, carried_, "  ")
+            << "  unit edges: " << fit.unit_edges << " % (" << given.unit_edges
+            << " % in the metric before the tolerance made it smaller)\n"
             << "  efficiency index: " << fit.efficiency_index << '\n'
             << "certificate\n  tolerance " << length_ << " (" << 100 * length_ / before_.diagonal
             << " % of the diagonal)\n  proven: no point of either surface is farther than "

@@ -2,6 +2,7 @@
 //
 // surety simplify: read, simplify, verify independently, write. Nothing appears on disk before
 // everything has succeeded.
+#include "attributes.h"
 #include "commands.h"
 #include "controls.h"
 #include "html_report.h"
@@ -94,6 +95,7 @@ private:
   Stopwatch watch_;
   Mesh input_, output_;
   Repairs repairs_;
+  Attributes attributes_, carried_;
   Mesh_statistics input_statistics_, output_statistics_;
   double tolerance_ = 0;
   std::optional<Certificate> certificate_;
@@ -143,7 +145,7 @@ void Simplify::require_uniform_tolerance_if_accumulated() const
 
 void Simplify::read()
 {
-  input_ = read_mesh(arguments_.input, arguments_.reading, repairs_);
+  input_ = read_mesh(arguments_.input, arguments_.reading, repairs_, attributes_);
   lap("read");
   try {
     input_statistics_ = mesh_statistics(input_);
@@ -184,6 +186,8 @@ void Simplify::simplify()
     throw Failure(usage, error.argument() + ": " + error.problem());
   }
   lap("geometric_mesh");
+  if (holds_attributes(extension_of(arguments_.output)))
+    carried_ = carry_attributes(attributes_, input_, output_, certificate_->correspondence());
   output_statistics_ = mesh_statistics(output_);
   lap("output_statistics");
 }
@@ -239,7 +243,7 @@ void Simplify::write()
   const Deviation deviation{
       output_.add_property_map<Mesh::Face_index, double>("f:deviation", 0).first, tolerance_};
   files_.write(arguments_.output, [&](std::ostream& stream) {
-    write_mesh(stream, extension_of(arguments_.output), output_, deviation);
+    write_mesh(stream, extension_of(arguments_.output), output_, deviation, carried_);
   });
   if (!arguments_.certificate.empty()) {
     files_.write(arguments_.certificate, [&](std::ostream& stream) {
@@ -262,6 +266,7 @@ Json Simplify::report() const
   json["input"] = to_json(arguments_.input, input_statistics_);
   if (arguments_.reading.repair) json["input"]["repairs"] = to_json(repairs_);
   json["output"] = to_json(arguments_.output, output_statistics_);
+  if (!carried_.is_empty()) json["output"]["attributes"] = names_of(carried_);
   Json& certificate = json["certificate"];
   certificate["tolerance"] = tolerance_;
   certificate["bound"] = certificate_->bound();
@@ -298,9 +303,9 @@ void Simplify::print() const
   std::cout << arguments_.input << '\n'
             << to_text(repairs_, "  ") << to_text(input_statistics_, "  ") << arguments_.output
             << " (" << to_text(per_cent) << " % of the faces)\n"
-            << to_text(output_statistics_, "  ") << "certificate\n  tolerance " << tolerance_
-            << " (" << 100 * tolerance_ / diagonal(input_)
-            << " % of the diagonal)\n  proven: no point of "
+            << to_text(output_statistics_, "  ") << to_text(attributes_, carried_, "  ")
+            << "certificate\n  tolerance " << tolerance_ << " ("
+            << 100 * tolerance_ / diagonal(input_) << " % of the diagonal)\n  proven: no point of "
             << "either surface is farther than " << certificate_->bound() << " from the other\n";
   if (verification_.certificate)
     std::cout << "  checked from its record: holds; normals turn by at most "

@@ -6,6 +6,7 @@
 #define SURETY_TOOL_SOUP_H
 
 #include "annotations.h"
+#include "attributes.h"
 #include "mesh.h"
 
 #include <cstddef>
@@ -21,6 +22,7 @@ struct Soup {
   std::vector<Point> points;
   std::vector<Polygon> polygons;
   std::optional<Annotations> annotations; ///< of formats that know any
+  Attributes attributes;                  ///< likewise, corner by corner of the polygons
 };
 
 /// Merges points that are equal, if no two polygons share one: then the file knows no

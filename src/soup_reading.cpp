@@ -6,6 +6,7 @@
 // compared with its size, and the result with its promises.
 #include "soup_reading.h"
 
+#include "attribute_reading.h"
 #include "failure.h"
 #include "medit.h"
 
@@ -207,7 +208,7 @@ Soup read_off(const std::string& file, const std::string& text)
   return soup;
 }
 
-Soup read_ply(const std::string& file, const std::string& text)
+Soup read_ply(const std::string& file, const std::string& text, bool wants_attributes)
 {
   const auto promise = ply_promise(text);
   if (promise) require_plausible(*promise, file, text.size(), "PLY");
@@ -219,12 +220,12 @@ Soup read_ply(const std::string& file, const std::string& text)
       || promise->faces != soup.polygons.size()) {
     fail_to_parse(file, text, "PLY");
   }
+  if (wants_attributes) soup.attributes = read_ply_attributes(file, text, soup);
   return soup;
 }
 
-/// Only what makes a mesh, in the dialect that CGAL's reader understands: vertices and faces,
-/// separated by blanks, one a line. Lines, curves, groups and materials are dropped.
-std::string plain_obj(std::string text)
+/// With blanks between words and one statement a line.
+std::string unfolded_obj(std::string text)
 {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\t' || text[i] == '\r') text[i] = ' ';
@@ -234,6 +235,13 @@ std::string plain_obj(std::string text)
     const std::size_t end = std::min(text.find('\n', i), text.size() - 1);
     std::fill(text.begin() + std::ptrdiff_t(i), text.begin() + std::ptrdiff_t(end) + 1, ' ');
   }
+  return text;
+}
+
+/// Only what makes a mesh, in the dialect that CGAL's reader understands: vertices and faces.
+/// Lines, curves, groups and materials are dropped.
+std::string plain_obj(const std::string& text)
+{
   std::string plain;
   plain.reserve(text.size());
   std::istringstream lines(text);
@@ -245,14 +253,15 @@ std::string plain_obj(std::string text)
   return plain;
 }
 
-Soup read_obj(const std::string& file, const std::string& text)
+Soup read_obj(const std::string& file, const std::string& text, bool wants_attributes)
 {
-  const std::string plain = plain_obj(text);
+  const std::string unfolded = unfolded_obj(text), plain = plain_obj(unfolded);
   Soup soup;
   Memory_stream stream(plain.data(), plain.size());
   if (plain.empty() || !CGAL::IO::read_OBJ(stream, soup.points, soup.polygons)) {
     fail_to_parse(file, text, "OBJ");
   }
+  if (wants_attributes) soup.attributes = read_obj_attributes(file, unfolded, soup);
   return soup;
 }
 
@@ -301,7 +310,7 @@ Soup read_stl(const std::string& file, std::string text)
   return soup;
 }
 
-Soup parse(const std::string& file)
+Soup parse(const std::string& file, bool wants_attributes)
 {
   const std::string extension = extension_of(file);
   constexpr std::array<const char*, 6> known = {"off", "obj", "ply", "stl", "mesh", "meshb"};
@@ -313,8 +322,8 @@ Soup parse(const std::string& file)
   std::string text = read_bytes(file);
   const Memory_limit limit(text.size());
   if (extension == "off") return read_off(file, text);
-  if (extension == "obj") return read_obj(file, text);
-  if (extension == "ply") return read_ply(file, text);
+  if (extension == "obj") return read_obj(file, text, wants_attributes);
+  if (extension == "ply") return read_ply(file, text, wants_attributes);
   if (extension == "mesh") return read_medit_text(file, text);
   if (extension == "meshb") return read_medit_binary(file, text);
   return read_stl(file, std::move(text));
@@ -330,10 +339,10 @@ std::string extension_of(const std::string& file)
   return extension;
 }
 
-Soup read_soup(const std::string& file)
+Soup read_soup(const std::string& file, bool wants_attributes)
 {
   try {
-    return parse(file);
+    return parse(file, wants_attributes);
   } catch (const std::bad_alloc&) {
     throw Bad_file(
         file, "a count in the file is larger than the file can hold", "export the file again");

@@ -32,7 +32,9 @@ void write_data(
   if (has_first) stream << " Scalars=\"" << shown_first << '"';
   stream << ">\n";
   for (const Vtp_array& array : data) {
-    if (array.is_integral) {
+    if (array.is_color) {
+      write_array<int>(stream, "UInt8", array.name, array.components, array.values);
+    } else if (array.is_integral) {
       write_array<long long>(stream, "Int64", array.name, array.components, array.values);
     } else {
       write_array<double>(stream, "Float64", array.name, array.components, array.values);

@@ -19,6 +19,7 @@ struct Vtp_array {
   int components = 1;
   std::vector<double> values;
   bool is_integral = false;
+  bool is_color = false; ///< integers from 0 to 255, which viewers show as they are
 };
 
 /// \param shown_first an array that a viewer selects; empty: none.
