@@ -14,6 +14,7 @@
 #include "stopwatch.h"
 #include "table.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 #include <utility>
@@ -32,6 +33,7 @@ struct Settings {
   unsigned cpu_limit = 600;
   bool skip_slow = false;
   bool with_best = false;
+  std::vector<std::string> methods; ///< none: all
   unsigned rotations = 1;
 };
 
@@ -110,6 +112,11 @@ private:
   template <class Method>
   void run_method(const std::string& name, const Method& method)
   {
+    // The first one is always run: the others are compared with it.
+    const auto& wanted = settings_.methods;
+    if (our_faces_ > 0 && !wanted.empty()
+        && std::find(wanted.begin(), wanted.end(), name) == wanted.end())
+      return;
     auto [ending, record, message] = run_in_child(
         [&](const Report& report) {
           Mesh output = input_;
@@ -165,6 +172,11 @@ int run(int argc, char* argv[])
   add_cpu_limit(program, settings.cpu_limit);
   program.add_flag("--best", settings.with_best, "Run ours with the best effort too: minutes");
   program.add_flag("--skip-slow", settings.skip_slow, "Leave out the peers that may take a minute");
+  program
+      .add_option(
+          "--methods", settings.methods,
+          "Names of methods, as in the table, separated by commas; default: all")
+      ->delimiter(',');
   program
       .add_option(
           "--rotations", settings.rotations,

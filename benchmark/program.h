@@ -4,6 +4,8 @@
 #ifndef SURETY_BENCHMARK_PROGRAM_H
 #define SURETY_BENCHMARK_PROGRAM_H
 
+#include "table.h"
+
 #include <CLI/CLI.hpp>
 
 #include <cstdlib>
@@ -14,14 +16,18 @@
 
 namespace surety::benchmark {
 
-/// Parses a command line; ends the program after --help or a mistake.
+/// Adds --csv and --json, parses a command line, and ends the program after --help or a mistake.
 inline void parse_or_exit(CLI::App& program, int argc, char* argv[])
 {
+  bool as_json = false;
+  const auto json = program.add_flag("--json", as_json, "Print an array of objects, one a row");
+  program.add_flag("--csv", "Print comma-separated values, which is the default")->excludes(json);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     std::exit(program.exit(error));
   }
+  Table::format() = as_json ? Table::Format::json : Table::Format::csv;
 }
 
 inline void add_tolerances(CLI::App& program, std::vector<double>& tolerances)

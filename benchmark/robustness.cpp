@@ -113,7 +113,7 @@ void run_case(
     const std::string& path, double per_cent, const Settings& settings, const Report& report)
 {
   report.set("stage", "read");
-  const Mesh input = surety::tool::read_mesh(path, {settings.triangulate, true});
+  const Mesh input = surety::tool::read_mesh(path, {settings.triangulate});
   const double tolerance = per_cent / 100 * diagonal(input);
 
   report.set("stage", "simplify");

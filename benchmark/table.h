@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Tables of comma-separated values on standard output, a row as soon as it is known.
+// Tables on standard output, as comma-separated values or as JSON, a row as soon as it is known.
 #ifndef SURETY_BENCHMARK_TABLE_H
 #define SURETY_BENCHMARK_TABLE_H
 
 #include "child.h"
+
+#include <nlohmann/json.hpp>
 
 #include <iostream>
 #include <sstream>
@@ -25,14 +27,38 @@ inline std::string to_text(double value)
 class Table
 {
 public:
-  explicit Table(std::vector<std::string> columns) : columns_(std::move(columns))
+  enum class Format { csv, json };
+
+  /// Of all tables that are made from now on: the choice of the command line.
+  static Format& format()
   {
-    for (const auto& column : columns_) write(column, column);
+    static Format chosen = Format::csv;
+    return chosen;
   }
 
-  /// Columns that the record lacks stay empty.
+  explicit Table(std::vector<std::string> columns)
+    : columns_(std::move(columns)), is_json_(format() == Format::json)
+  {
+    if (is_json_) {
+      std::cout << '[' << std::flush;
+    } else {
+      for (const auto& column : columns_) write(column, column);
+    }
+  }
+  Table(const Table&) = delete;
+  Table& operator=(const Table&) = delete;
+  ~Table()
+  {
+    if (is_json_) std::cout << "\n]\n" << std::flush;
+  }
+
+  /// Columns that the record lacks stay empty, or are left out of the object.
   void add(const Record& record) const
   {
+    if (is_json_) {
+      add_object(record);
+      return;
+    }
     for (const auto& column : columns_) {
       const auto found = record.find(column);
       write(column, found == record.end() ? std::string() : found->second);
@@ -40,6 +66,24 @@ public:
   }
 
 private:
+  /// Numbers as numbers, the rest as text.
+  void add_object(const Record& record) const
+  {
+    nlohmann::ordered_json object = nlohmann::ordered_json::object();
+    for (const auto& column : columns_) {
+      const auto found = record.find(column);
+      if (found == record.end()) continue;
+      const auto number = nlohmann::ordered_json::parse(found->second, nullptr, false);
+      if (number.is_number()) {
+        object[column] = number;
+      } else {
+        object[column] = found->second;
+      }
+    }
+    std::cout << (is_first_ ? "\n  " : ",\n  ") << object << std::flush;
+    is_first_ = false;
+  }
+
   void write(const std::string& column, const std::string& value) const
   {
     const bool is_last = &column == &columns_.back();
@@ -56,6 +100,8 @@ private:
   }
 
   std::vector<std::string> columns_;
+  bool is_json_;
+  mutable bool is_first_ = true;
 };
 
 } // namespace surety::benchmark
