@@ -4,6 +4,7 @@
 // comes from outside, as the names of files do, cannot end the element that holds the data.
 #include "html_report.h"
 
+#include "faces.h"
 #include "failure.h"
 #include "report_page.h"
 #include "shown_mesh.h"
@@ -23,9 +24,10 @@
 namespace surety::tool {
 namespace {
 
-/// An input with more faces is shown by fewer: with 100,000 faces pages stay below 3 MB, even where
-/// the result has as many.
-constexpr std::size_t most_faces_of_input = 60000, faces_of_large_input = 30000;
+/// A mesh with more faces is shown by fewer, so that pages stay below 3 MB whatever both meshes
+/// have. The result is what people look at: it may have more.
+constexpr std::size_t most_faces_of_input = 60000, most_faces_of_output = 80000,
+                      faces_of_large_mesh = 30000;
 
 /// Faces that are worse all have the last colour.
 constexpr double worst_shown_quality = 4;
@@ -106,15 +108,17 @@ std::string number_of_faces(const Mesh& mesh)
   return to_text(std::size_t(mesh.number_of_faces()));
 }
 
-Json describe_input(const Mesh& mesh, const Field_maker& fields)
+/// \param most faces to be shown as they are, with what `fields_of` makes of their qualities
+template <class Fields_of>
+Json describe_view(
+    const Mesh& mesh, const char* title, std::size_t most, const Fields_of& fields_of)
 {
   const std::vector<double> qualities = face_qualities(mesh);
   std::optional<Display_mesh> simplified;
-  if (mesh.number_of_faces() > most_faces_of_input)
-    simplified = simplified_for_display(mesh, faces_of_large_input);
+  if (mesh.number_of_faces() > most) simplified = simplified_for_display(mesh, faces_of_large_mesh);
   Json view = simplified ? describe_shape(simplified->mesh, {})
-                         : describe_shape(mesh, fields.of_input(qualities));
-  view["title"] = "before";
+                         : describe_shape(mesh, fields_of(qualities));
+  view["title"] = title;
   view["note"] = number_of_faces(mesh) + " faces";
   if (simplified)
     view["note"] = number_of_faces(mesh) + " faces, shown by " + number_of_faces(simplified->mesh)
@@ -123,14 +127,18 @@ Json describe_input(const Mesh& mesh, const Field_maker& fields)
   return view;
 }
 
+Json describe_input(const Mesh& mesh, const Field_maker& fields)
+{
+  return describe_view(
+      mesh, "before", most_faces_of_input,
+      [&](const std::vector<double>& qualities) { return fields.of_input(qualities); });
+}
+
 Json describe_output(const Mesh& mesh, const Field_maker& fields)
 {
-  const std::vector<double> qualities = face_qualities(mesh);
-  Json view = describe_shape(mesh, fields.of_output(mesh, qualities));
-  view["title"] = "after";
-  view["note"] = number_of_faces(mesh) + " faces";
-  view["qualities"] = quality_histogram(qualities);
-  return view;
+  return describe_view(
+      mesh, "after", most_faces_of_output,
+      [&](const std::vector<double>& qualities) { return fields.of_output(mesh, qualities); });
 }
 
 /// Puts texts where the template has `@name@`, each once and in the order of the template.

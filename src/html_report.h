@@ -31,7 +31,7 @@ void require_possible_report(const std::string& file);
 /// page.
 void require_json_report(const std::string& file);
 
-/// Writes the report to a stream: a page if its name says so, JSON otherwise. Where the input is
+/// Writes the report to a stream: a page if its name says so, JSON otherwise. Where a mesh is
 /// large the page shows it simplified, and says so.
 void write_report(
     std::ostream& stream, const std::string& file, const Json& report,

@@ -7,6 +7,7 @@
 #include "fields.h"
 #include "html_report.h"
 #include "library_description.h"
+#include "marks.h"
 #include "mesh_reading.h"
 #include "output_files.h"
 #include "report.h"
@@ -72,7 +73,9 @@ void Info::run() const
   watch.lap("read");
   const Mesh_statistics statistics = mesh_statistics(mesh);
   watch.lap("statistics");
-  const Features features = find_features(mesh, feature_parameters(feature_angle, corner_angle));
+  // A Medit file says itself what is to stay a curve or a corner.
+  const Features features
+      = find_features(mesh, feature_parameters(feature_angle, corner_angle, constraints_of(mesh)));
   watch.lap("features");
   std::optional<Fields> found;
   if (!fields.is_empty()) found = make_fields(mesh, features, fields, watch);
@@ -152,7 +155,8 @@ void add_info(CLI::App& program, Exit_status&)
   const auto command
       = program.add_subcommand("info", "Validity, features and statistics of a mesh");
   const auto info = std::make_shared<Info>();
-  command->add_option("IN", info->input, "mesh to look at: off, obj, ply or stl")->required();
+  command->add_option("IN", info->input, "mesh to look at: off, obj, ply, stl, mesh or meshb")
+      ->required();
   const auto feature_angle = command
                                  ->add_option(
                                      "--feature-angle", info->feature_angle,

@@ -5,6 +5,7 @@
 // mesh as in the old one.
 #include "marks.h"
 
+#include "faces.h"
 #include "failure.h"
 
 #include <surety/internal/metric/face_locator.h>
@@ -27,12 +28,6 @@ using surety::internal::metric::Face_locator;
 using surety::internal::metric::Located_face;
 
 Vector to_vector(const Point& p) { return {p.x(), p.y(), p.z()}; }
-
-std::array<Vertex, 3> corners(const Mesh& mesh, Face f)
-{
-  const auto h = mesh.halfedge(f);
-  return {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
-}
 
 std::array<Vector, 3> places(const Mesh& mesh, Face f)
 {

@@ -5,11 +5,10 @@
 
 #include "attribute_writing.h"
 #include "colors.h"
+#include "faces.h"
 #include "marks.h"
 #include "medit.h"
 #include "vtp.h"
-
-#include <surety/statistics.h>
 
 #include <CGAL/IO/Color.h>
 #include <CGAL/Surface_mesh/IO.h>
@@ -26,26 +25,10 @@ namespace {
 
 using Face = Mesh::Face_index;
 
-std::array<Mesh::Vertex_index, 3> corners(const Mesh& mesh, Face face)
-{
-  const auto h = mesh.halfedge(face);
-  return {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
-}
-
 std::vector<double> bounds(const Mesh& mesh, const Deviation& deviation)
 {
   std::vector<double> values;
   for (const Face face : mesh.faces()) values.push_back(get(deviation.bound, face));
-  return values;
-}
-
-std::vector<double> qualities(const Mesh& mesh)
-{
-  std::vector<double> values;
-  for (const Face face : mesh.faces()) {
-    const auto [a, b, c] = corners(mesh, face);
-    values.push_back(quality(mesh.point(a), mesh.point(b), mesh.point(c)));
-  }
   return values;
 }
 
@@ -60,7 +43,7 @@ Mesh heat_map(const Mesh& mesh, const Deviation& deviation, const Attributes& at
   }
   const auto bound = result.add_property_map<Face, double>("f:deviation", 0).first;
   const auto shape = result.add_property_map<Face, double>("f:quality", 0).first;
-  const auto all_bounds = bounds(mesh, deviation), all_shapes = qualities(mesh);
+  const auto all_bounds = bounds(mesh, deviation), all_shapes = face_qualities(mesh);
   for (const Face face : result.faces()) {
     put(bound, face, all_bounds[face]);
     put(shape, face, all_shapes[face]);
@@ -118,7 +101,8 @@ void write_mesh(
   if (extension == "vtp") {
     write_vtp(
         stream, mesh, vtp_arrays(attributes, mesh),
-        {{"deviation", 1, bounds(mesh, deviation)}, {"quality", 1, qualities(mesh)}}, "deviation");
+        {{"deviation", 1, bounds(mesh, deviation)}, {"quality", 1, face_qualities(mesh)}},
+        "deviation");
   }
   if (extension == "ply") {
     CGAL::IO::set_binary_mode(stream);

@@ -2,15 +2,17 @@
 #include "shown_mesh.h"
 
 #include "controls.h"
+#include "faces.h"
 #include "length.h"
 #include "library_simplification.h"
 #include "marks.h"
 #include "progress.h"
 #include "tolerance_field.h"
 
-#include <surety/statistics.h>
-
 #include <CGAL/Polygon_mesh_processing/bbox.h>
+
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 
 #include <algorithm>
 #include <array>
@@ -22,29 +24,17 @@ namespace {
 
 using Face = Mesh::Face_index;
 
-std::array<Mesh::Vertex_index, 3> corners(const Mesh& mesh, Face face)
-{
-  const auto h = mesh.halfedge(face);
-  return {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
-}
-
 /// Bytes as text, as RFC 4648 has it.
-std::string base64(const std::string& bytes)
+std::string base64(std::string bytes)
 {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) {
-      return k < bytes.size() ? std::uint32_t(static_cast<unsigned char>(bytes[k])) : 0u;
-    };
-    const std::uint32_t three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-    for (int shift = 18; shift >= 0; shift -= 6) text += digits[three >> shift & 63];
-  }
-  // What stands for no byte at all is told by '='.
+  namespace iterators = boost::archive::iterators;
+  using Digits = iterators::base64_from_binary<
+      iterators::transform_width<std::string::const_iterator, 6, 8>>;
+  // Three bytes make four digits; what stands for no byte at all is told by '='.
   const std::size_t missing = (3 - bytes.size() % 3) % 3;
-  text.replace(text.size() - missing, missing, missing, '=');
-  return text;
+  bytes.append(missing, '\0');
+  std::string text(Digits(bytes.cbegin()), Digits(bytes.cend()));
+  return text.replace(text.size() - missing, missing, missing, '=');
 }
 
 void append(std::string& bytes, std::uint32_t value, int number_of_bytes)
@@ -94,29 +84,6 @@ Display_mesh simplified_for_display(const Mesh& mesh, std::size_t faces)
                      simplify_parameters(controls, tolerances, constraints_of(mesh), Visitor(bar)))
                      .bound();
   return result;
-}
-
-std::vector<double> face_qualities(const Mesh& mesh)
-{
-  std::vector<double> values;
-  for (const Face face : mesh.faces()) {
-    const auto [a, b, c] = corners(mesh, face);
-    values.push_back(quality(mesh.point(a), mesh.point(b), mesh.point(c)));
-  }
-  return values;
-}
-
-std::vector<double> face_sizes(const Mesh& mesh)
-{
-  const auto length = [&](Mesh::Vertex_index a, Mesh::Vertex_index b) {
-    return std::sqrt(CGAL::squared_distance(mesh.point(a), mesh.point(b)));
-  };
-  std::vector<double> values;
-  for (const Face face : mesh.faces()) {
-    const auto [a, b, c] = corners(mesh, face);
-    values.push_back((length(a, b) + length(b, c) + length(c, a)) / 3);
-  }
-  return values;
 }
 
 Json describe_shape(const Mesh& mesh, const std::vector<Shown_field>& fields)

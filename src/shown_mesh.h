@@ -29,12 +29,6 @@ struct Display_mesh {
 /// The mesh with about this number of faces, or as many as its topology needs.
 Display_mesh simplified_for_display(const Mesh& mesh, std::size_t faces);
 
-/// By face: the quality Q.
-std::vector<double> face_qualities(const Mesh& mesh);
-
-/// By face: the mean length of its edges.
-std::vector<double> face_sizes(const Mesh& mesh);
-
 /// Points, faces and fields as base64 of little-endian integers: points by 16 bits of the largest
 /// extent, which moves them by less than a hundred-thousandth of it; indices by 16 bits where these
 /// suffice and 32 otherwise; values by 8 bits.

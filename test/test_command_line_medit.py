@@ -2,6 +2,7 @@
 #
 # Medit's files through the command line: what a mesh generator says of vertices, edges and
 # triangles is kept and comes back, and files that are wrong are refused by line.
+import json
 import unittest
 
 from command_runs import Runs
@@ -120,6 +121,19 @@ class Medit(Runs):
         self.assertEqual(places(new, "RequiredVertices"), places(old, "RequiredVertices"))
         for keyword, within in (("RequiredEdges", "Edges"), ("RequiredTriangles", "Triangles")):
             self.assertEqual(places(new, keyword, within), places(old, keyword, within))
+
+    def test_info_counts_what_is_marked(self):
+        mesh = cube()
+        (self.folder / "in.mesh").write_text(text_of(mesh))
+        plain = {"Vertices": mesh["Vertices"], "Triangles": [(*t[:3], 0) for t in mesh["Triangles"]]}
+        (self.folder / "plain.mesh").write_text(text_of(plain))
+        counts = []
+        for name in ("plain.mesh", "in.mesh"):
+            self.surety("info", name, "--feature-angle", "180", "--report", "r.json")
+            counts.append(json.loads((self.folder / "r.json").read_text())["features"])
+        self.assertEqual((counts[0]["ridge_edges"], counts[0]["corners"]), (0, 0))
+        self.assertGreaterEqual(counts[1]["ridge_edges"], len(mesh["Edges"]))
+        self.assertGreaterEqual(counts[1]["corners"], len(mesh["Corners"]))
 
     def test_simplification_keeps_what_the_file_says(self):
         (self.folder / "in.mesh").write_text(text_of(cube()))

@@ -190,17 +190,29 @@ class Html_report(Runs):
         self.assertGreater(max(base64.b64decode(deviation["values"])), 0)
 
     @unittest.skipUnless(HAS_VIEWER, "three.js was not there")
-    def test_a_large_input_is_shown_smaller_and_the_page_says_so(self):
+    def test_large_meshes_are_shown_smaller_and_the_page_says_so(self):
         (self.folder / "large.off").write_text(off_text(bumpy(224)))  # 100,352 faces
         # Even if nothing could be left out.
         page = self.page(file="large.off", tolerance="0.0001%")
         self.assertGreater(page.data["report"]["output"]["faces"], 100000)
         self.assertLess((self.folder / "r.html").stat().st_size, 3e6)
-        before = page.data["views"][0]
-        self.assertLessEqual(len(base64.b64decode(before["faces"])) / 3 / before["index_bytes"],
-                             30000)
-        self.assertIn("100,352 faces, shown by", before["note"])
-        self.assertEqual(sum(b["number"] for b in before["qualities"]), 100352)
+        for view, faces in zip(page.data["views"], (
+                100352, page.data["report"]["output"]["faces"])):
+            self.assertLessEqual(len(base64.b64decode(view["faces"])) / 3 / view["index_bytes"],
+                                 30000)
+            self.assertIn(f"{faces:,} faces, shown by", view["note"])
+            self.assertEqual(sum(b["number"] for b in view["qualities"]), faces)
+
+    @unittest.skipUnless(HAS_VIEWER, "three.js was not there")
+    def test_a_result_that_is_not_large_is_shown_with_its_values(self):
+        (self.folder / "large.off").write_text(off_text(bumpy(196)))  # 76,832 faces
+        page = self.page(file="large.off", tolerance="0.0001%")
+        self.assertLess((self.folder / "r.html").stat().st_size, 3e6)
+        after = page.data["views"][1]
+        faces = page.data["report"]["output"]["faces"]
+        self.assertGreater(faces, 70000)
+        self.assertEqual(after["note"], f"{faces:,} faces")
+        self.assertEqual(len(base64.b64decode(after["fields"][0]["values"])), faces)
 
     @unittest.skipUnless(HAS_VIEWER, "three.js was not there")
     def test_names_of_files_are_text(self):
