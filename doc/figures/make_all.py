@@ -7,7 +7,8 @@
 #
 # `adapt_to_front` is the example of that name. Names after these, without .py, make those figures
 # only. Needs python3-vtk9, and a display, which xvfb-run provides where there is none; the picture
-# of a report needs Chromium and is left as it is where that is missing.
+# of a report needs Chromium and is left as it is where that is missing. The plots of performance
+# need python3-matplotlib and the benchmarks, in the folder "benchmark" beside surety.
 import re
 import shutil
 import subprocess
@@ -91,6 +92,14 @@ class Maker:
         else:
             print("  left as it is: there is no chromium")
 
+    def performance(self):
+        benchmarks = Path(self.surety).parent / "benchmark"
+        if (benchmarks / "benchmark_counts").exists():
+            self.draw("performance", str(benchmarks), str(self.models), str(self.folder),
+                      str(HERE))
+        else:
+            print("  left as it is: the benchmarks have not been built")
+
     def solved_front(self):
         """The table that the example prints, with each number as it is there."""
         done = subprocess.run([self.front, "steady", "4"], check=True, capture_output=True,
@@ -124,7 +133,7 @@ def main(surety, front, models, folder, *wanted):
     maker = Maker(surety, front, models, folder)
     makers = {name: (lambda name=name: maker.with_table(name)) for name in WITH_TABLES}
     for name in ("levels", "solved_front", "heat_map", "curvature", "metric", "gradation",
-                 "support", "unit_mesh", "report"):
+                 "support", "unit_mesh", "report", "performance"):
         makers[name] = getattr(maker, name)
     unknown = [name for name in wanted if name not in makers]
     if unknown:
