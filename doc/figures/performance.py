@@ -23,6 +23,7 @@ from runs import number, write_table  # noqa: E402
 
 SIZES = ("elephant", "fandisk")
 MODELS = ("fandisk", "bear", "elephant")
+REMESHED = ("fandisk", "elephant")
 TOLERANCES = "0.01,0.03,0.1,0.3,1"
 METHODS = {"surety": "Surety", "surety_free": "Surety, free placement",
            "cgal_lindstrom_turk": "CGAL, Lindstrom-Turk",
@@ -50,9 +51,6 @@ class Benchmarks:
             if row.get("message"):
                 print(f"  no result: {row}", file=sys.stderr)
         return [row for row in rows if not row.get("message")]
-
-    def has(self, name):
-        return (self.folder / f"benchmark_{name}").exists()
 
 
 def groups(rows, column):
@@ -114,19 +112,6 @@ def plot_faces(rows, names, path):
     save(figure, path)
 
 
-def plot_threads(rows, path):
-    figure, axes = plt.subplots(figsize=(5, 3.5), layout="constrained")
-    for model, results in groups(rows, "model").items():
-        axes.plot(values(results, "threads"), values(results, "speed_up"), "o-",
-                  label=f"{model}, {number(float(results[0]['input_faces']), 0)} faces")
-    most = max(values(rows, "threads"))
-    axes.plot([1, most], [1, most], "k:", linewidth=.8, label="ideal")
-    axes.set(xlabel="threads", ylabel="times as fast as one", xticks=sorted(set(
-        values(rows, "threads"))))
-    axes.legend(fontsize=7)
-    save(figure, path)
-
-
 def save(figure, path):
     # Without the versions of programs, the same figures give the same file.
     figure.savefig(path, dpi=90, metadata={"Software": None})
@@ -159,18 +144,10 @@ def faces_table(rows, names, path):
     """At a tenth of a per cent."""
     write_table(
         path, [(row["model"], names[row["method"]],
-                number(float(row["faces"]), 0), number(float(row["seconds"]), 2),
+                number(float(row["faces"]), 0), number(float(row["seconds"]), 3),
                 number(float(row["distance_upper_over_tolerance"]), 2), row["within_tolerance"])
                for row in rows if float(row["tolerance_per_cent"]) == .1],
         ("model", "method", "faces", "CPU seconds", "true distance / tolerance", "within it"))
-
-
-def threads_table(rows, path):
-    write_table(
-        path, [(row["model"], number(float(row["input_faces"]), 0), row["threads"],
-                number(float(row["seconds_on_the_clock"]), 1), number(float(row["speed_up"]), 2),
-                number(float(row["faces"]), 0)) for row in rows],
-        ("model", "faces", "threads", "seconds on the clock", "times as fast", "faces after"))
 
 
 REMESHERS = {"surety": "Surety remesh", "surety_fewest": "Surety remesh --fewest",
@@ -187,13 +164,9 @@ def main(benchmarks, figures):
                         ",".join(METHODS))
     plot_faces(counts, METHODS, figures / "performance_simplify.png")
     faces_table(counts, METHODS, benchmarks.work / "performance_simplify.md")
-    remeshed = benchmarks("remeshing", *MODELS, "-t", TOLERANCES.split(",", 1)[1])
+    remeshed = benchmarks("remeshing", *REMESHED, "-t", TOLERANCES.split(",", 1)[1])
     plot_faces(remeshed, REMESHERS, figures / "performance_remesh.png")
     faces_table(remeshed, REMESHERS, benchmarks.work / "performance_remesh.md")
-    if benchmarks.has("threads"):
-        threads = benchmarks("threads", "elephant", "--smallest", "300000")
-        plot_threads(threads, figures / "performance_threads.png")
-        threads_table(threads, benchmarks.work / "performance_threads.md")
 
 
 if __name__ == "__main__":
