@@ -84,12 +84,9 @@ void Info::run() const
 
   Json json = new_report("info");
   json["input"] = to_json(input, statistics);
-  json["features"]
-      = {{"feature_angle", feature_angle},
-         {"corner_angle", corner_angle},
-         {"ridge_edges", features.ridges},
-         {"border_edges", features.borders},
-         {"corners", features.corners}};
+  json["features"] = {{"feature_angle", feature_angle},       {"corner_angle", corner_angle},
+                      {"marked_edges", features.constrained}, {"ridge_edges", features.ridges},
+                      {"border_edges", features.borders},     {"corners", features.corners}};
   if (found) describe_fields(json, mesh, *found);
   if (surface) json["support"] = describe(*surface);
   if (!output.empty()) {
@@ -133,11 +130,13 @@ void Info::describe_fields(Json& json, const Mesh& mesh, const Fields& found) co
 
 void Info::print(const Mesh_statistics& statistics, const Features& features) const
 {
+  const std::string marked
+      = features.constrained > 0 ? to_text(features.constrained) + " marked edges, " : "";
   std::cout << input << ": a valid triangle mesh\n"
             << to_text(statistics, "  ")
             << "  diagonal of the bounding box: " << statistics.diagonal
             << ", area: " << statistics.area << '\n'
-            << "  features: " << features.ridges << " ridge edges above " << feature_angle
+            << "  features: " << marked << features.ridges << " ridge edges above " << feature_angle
             << " degrees, " << features.borders << " border edges, " << features.corners
             << " corners\n";
 }

@@ -70,6 +70,7 @@ Json describe_field(const Shown_field& field)
 Display_mesh simplified_for_display(const Mesh& mesh, std::size_t faces)
 {
   Display_mesh result{mesh, 0};
+  result.mesh.remove_all_property_maps(); // a result has the tolerances that it was made with
   Controls controls;
   controls.target_faces = faces;
   controls.effort = Effort::fast;

@@ -131,8 +131,8 @@ class Medit(Runs):
         for name in ("plain.mesh", "in.mesh"):
             self.surety("info", name, "--feature-angle", "180", "--report", "r.json")
             counts.append(json.loads((self.folder / "r.json").read_text())["features"])
-        self.assertEqual((counts[0]["ridge_edges"], counts[0]["corners"]), (0, 0))
-        self.assertGreaterEqual(counts[1]["ridge_edges"], len(mesh["Edges"]))
+        self.assertEqual((counts[0]["marked_edges"], counts[0]["corners"]), (0, 0))
+        self.assertGreaterEqual(counts[1]["marked_edges"], len(mesh["Edges"]))
         self.assertGreaterEqual(counts[1]["corners"], len(mesh["Corners"]))
 
     def test_simplification_keeps_what_the_file_says(self):
