@@ -18,6 +18,7 @@ void add_info(CLI::App& program, Exit_status& status);
 void add_hierarchy(CLI::App& program, Exit_status& status);
 void add_remesh(CLI::App& program, Exit_status& status);
 void add_adapt(CLI::App& program, Exit_status& status);
+void add_enrich(CLI::App& program, Exit_status& status);
 
 struct Reading;
 /// The options of commands that change a mesh.

@@ -72,6 +72,7 @@ int run(int argc, char* argv[])
   add_simplify(program, status);
   add_remesh(program, status);
   add_adapt(program, status);
+  add_enrich(program, status);
   add_compare(program, status);
   add_verify(program, status);
   add_info(program, status);

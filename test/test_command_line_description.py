@@ -15,7 +15,8 @@ from pathlib import Path
 from info_runs import sphere
 
 SURETY = os.environ.get("SURETY", "surety")
-COMMANDS = ("simplify", "remesh", "compare", "verify", "info", "hierarchy", "adapt")
+COMMANDS = ("simplify", "remesh", "compare", "verify", "info", "hierarchy", "adapt",
+            "enrich")
 
 
 def surety(*arguments):

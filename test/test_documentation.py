@@ -15,7 +15,7 @@ DATA = os.environ.get("SURETY_DATA_DIR", "")
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "doc/manual").glob("*.md"))]
 QUOTE = re.compile(r"<!-- (doc/examples/\S+) -->\n```cpp\n(.*?)```", re.DOTALL)
-COMMANDS = ("simplify", "remesh", "compare", "verify", "info", "hierarchy", "adapt")
+COMMANDS = ("simplify", "remesh", "compare", "verify", "info", "hierarchy", "adapt", "enrich")
 
 
 def without_header(source):

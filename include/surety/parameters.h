@@ -197,6 +197,8 @@ constexpr bool fewest_faces = false;
 constexpr unsigned unit_mesh_iterations = 16;
 constexpr Placement unit_mesh_placement = Placement::free;
 constexpr Metric_kind remesh_metric_kind = Metric_kind::isotropic;
+// Of enrichment.
+constexpr unsigned enrichment_rounds = 12;
 // Of adaptation.
 constexpr double norm_exponent = 2;
 constexpr bool conserves = false;
@@ -717,10 +719,7 @@ inline auto fewest_faces(bool fewest)
 /// \brief Whether `remesh()` lowers isotropic sizes where features are near to each other.
 ///
 /// As `limit_proximity()` does. Default: `true`; `false` with `fewest_faces`.
-inline auto proximity(bool limits)
-{
-  return Named_parameters<bool, internal::proximity_t>(limits);
-}
+inline auto proximity(bool limits) { return Named_parameters<bool, internal::proximity_t>(limits); }
 
 /// \brief A metric on another mesh of the same surface, which a unit mesh respects as well
 /// (`Background_metric`). It is not copied, and must outlive the call. Default: none.

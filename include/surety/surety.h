@@ -9,6 +9,7 @@
 #include <surety/correspondence.h>
 #include <surety/curvature.h>
 #include <surety/distance.h>
+#include <surety/enrich.h>
 #include <surety/errors.h>
 #include <surety/features.h>
 #include <surety/features_by_need.h>
