@@ -18,8 +18,9 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 MANUAL = HERE.parent / "manual"
 MARKED = re.compile(r"(<!-- table: (\w+) -->\n)(.*?)(<!-- end of the table -->)", re.DOTALL)
-# Each of these programs runs surety itself. The first four are section 6 of the paper.
-WITH_TABLES = ("three_stages", "graded_meshes", "decimation", "adaptation", "expected")
+# Each of these programs runs surety itself. The first five are section 6 of the paper.
+WITH_TABLES = ("three_stages", "graded_meshes", "decimation", "enrichment", "adaptation",
+               "expected")
 
 
 class Maker:
