@@ -17,7 +17,7 @@ namespace surety::tool {
 namespace {
 
 struct Compare {
-  std::string first, second, tolerance, accuracy, report;
+  std::string first, second, tolerance, accuracy, certificate, report;
   Reading reading;
   bool is_quiet = false;
 
@@ -26,6 +26,9 @@ struct Compare {
 private:
   Exit_status measure(const Mesh& a, const Mesh& b, double accuracy_in_units, Json& json) const;
   Exit_status decide(const Mesh& a, const Mesh& b, double tolerance_in_units, Json& json) const;
+  Exit_status prove(
+      const Mesh& a, const Mesh& b, double tolerance_in_units, Output_files& files,
+      Json& json) const;
   void print(const char* name, const Distance_interval& interval) const;
 };
 
@@ -56,9 +59,12 @@ Exit_status Compare::run() const
   std::optional<Length> bound, eps;
   if (!tolerance.empty()) bound = Length::parse(tolerance, "--tolerance");
   if (!accuracy.empty()) eps = Length::parse(accuracy, "--accuracy");
+  if (!certificate.empty() && !bound)
+    throw CLI::ValidationError("--certificate", "a proof is of a tolerance: give --tolerance");
   Output_files files({first, second});
   require_json_report(report);
-  if (!report.empty()) files.announce(report);
+  for (const std::string& file : {report, certificate})
+    if (!file.empty()) files.announce(file);
   Stopwatch watch;
   const Mesh a = read_triangles(first, reading), b = read_triangles(second, reading);
   watch.lap("read");
@@ -69,17 +75,34 @@ Exit_status Compare::run() const
   const double length = diagonal(a);
   if (bound) status = decide(a, b, bound->in_units(length), json);
   watch.lap("decide");
+  if (!certificate.empty() && status == done) {
+    status = prove(a, b, bound->in_units(length), files, json);
+    watch.lap("prove");
+  }
   if (!bound || eps) {
     const auto measured = measure(a, b, eps ? eps->in_units(length) : 1e-4 * length, json);
     if (status == done) status = measured;
   }
   watch.lap("measure");
   json["seconds"] = watch.seconds();
-  if (!report.empty()) {
-    files.write(report, [&](std::ostream& stream) { stream << to_text(json); });
-    files.commit();
-  }
+  if (!report.empty()) files.write(report, [&](std::ostream& stream) { stream << to_text(json); });
+  files.commit();
   return status;
+}
+
+/// Writes what anyone can check, with `surety verify`.
+Exit_status Compare::prove(
+    const Mesh& a, const Mesh& b, double tolerance_in_units, Output_files& files, Json& json) const
+{
+  const auto covering = make_covering(a, b, tolerance_in_units);
+  json["certificate"]["written"] = covering.has_value();
+  if (!covering) {
+    std::cerr << "surety: the distance is so near to the tolerance that no certificate was found; "
+                 "none is written\n";
+    return not_certified;
+  }
+  files.write(certificate, [&](std::ostream& stream) { write_covering(stream, *covering); });
+  return done;
 }
 
 Exit_status Compare::measure(
@@ -146,6 +169,9 @@ void add_compare(CLI::App& program, Exit_status& status)
   command->add_option(
       "--accuracy", compare->accuracy,
       "width of the interval, a length or a per cent; without it 0.01%, or none with a tolerance");
+  command->add_option(
+      "--certificate", compare->certificate,
+      "write a proof that they lie within the tolerance to this file, for surety verify");
   command->add_flag("--triangulate", compare->reading.triangulate, "split faces with more corners");
   command->add_option("--report", compare->report, "write all figures to this JSON file");
   command->add_flag("--quiet", compare->is_quiet, "print nothing but errors");

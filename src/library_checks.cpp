@@ -12,5 +12,7 @@ template Distance_certificate certify_distance(
 template Hausdorff_distance hausdorff_distance(
     const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&,
     const tool::No_parameters&);
+template std::optional<Covering> make_covering(const tool::Mesh&, const tool::Mesh&, double);
+template Covering_check check_covering(const tool::Mesh&, const tool::Mesh&, const Covering&);
 
 } // namespace surety

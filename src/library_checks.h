@@ -7,7 +7,10 @@
 #include "parameter_chains.h"
 
 #include <surety/certificate.h>
+#include <surety/covering_certificate.h>
 #include <surety/distance.h>
+
+#include <optional>
 
 namespace surety {
 
@@ -20,6 +23,9 @@ extern template Distance_certificate certify_distance(
 extern template Hausdorff_distance hausdorff_distance(
     const tool::Mesh&, const tool::Mesh&, double, const tool::No_parameters&,
     const tool::No_parameters&);
+extern template std::optional<Covering> make_covering(const tool::Mesh&, const tool::Mesh&, double);
+extern template Covering_check check_covering(
+    const tool::Mesh&, const tool::Mesh&, const Covering&);
 
 } // namespace surety
 

@@ -11,9 +11,21 @@
 
 #include <fstream>
 #include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace surety::tool {
 namespace {
+
+/// What the check of a certificate of either kind says.
+struct Answer {
+  std::string kind;
+  bool holds;
+  std::string reason;
+  double tolerance, bound;
+  std::optional<double> curve_bound; ///< a covering says nothing of curves
+};
 
 struct Verify {
   std::string input, output, certificate, report;
@@ -21,15 +33,36 @@ struct Verify {
   bool is_quiet = false;
 
   Exit_status run() const;
-  void print(const Certificate& claim, const Certificate_check& check) const;
+  void print(const Answer& answer) const;
 };
 
-Certificate read_certificate_file(const std::string& file)
+bool is_covering(std::istream& stream)
+{
+  std::string word;
+  stream >> word;
+  stream.clear(); // an empty file is not one, and is reported by who reads it
+  stream.seekg(0);
+  return word == "surety-covering";
+}
+
+/// Reads the file, whichever kind of proof it holds, and checks it.
+Answer check_file(
+    const std::string& file, const Mesh& original, const Mesh& result, Stopwatch& watch)
 {
   std::ifstream stream(file);
   if (!stream) throw Bad_file(file, "the file cannot be read", "");
   try {
-    return read_certificate(stream);
+    if (is_covering(stream)) {
+      const Covering claim = read_covering(stream);
+      watch.lap("read");
+      Covering_check check = check_covering(original, result, claim);
+      return {"covering", check.holds, std::move(check.reason), claim.tolerance, check.bound, {}};
+    }
+    const Certificate claim = read_certificate(stream);
+    watch.lap("read");
+    Certificate_check check = check_certificate(original, result, claim);
+    return {"map",       check.holds,      std::move(check.reason), claim.tolerance(),
+            check.bound, check.curve_bound};
   } catch (const Invalid_input& error) {
     throw Bad_file(file, error.problem(), error.remedy());
   }
@@ -44,35 +77,34 @@ Exit_status Verify::run() const
   const Mesh original = read_mesh(input, reading);
   // The output is what the certificate is about: vertex by vertex, as it was written.
   const Mesh result = read_mesh(output, {false, false});
-  const Certificate claim = read_certificate_file(certificate);
-  watch.lap("read");
-  const Certificate_check check = check_certificate(original, result, claim);
+  const Answer answer = check_file(certificate, original, result, watch);
   watch.lap("verify");
 
   Json json = new_report("verify");
   json["files"] = {{"input", input}, {"output", output}, {"certificate", certificate}};
   json["certificate"]
-      = {{"tolerance", claim.tolerance()},
-         {"bound", check.bound},
-         {"curve_bound", check.curve_bound},
-         {"holds", check.holds},
-         {"reason", check.reason}};
+      = {{"kind", answer.kind},
+         {"tolerance", answer.tolerance},
+         {"bound", answer.bound},
+         {"holds", answer.holds},
+         {"reason", answer.reason}};
+  if (answer.curve_bound) json["certificate"]["curve_bound"] = *answer.curve_bound;
   json["seconds"] = watch.seconds();
   if (!report.empty()) {
     files.write(report, [&](std::ostream& stream) { stream << to_text(json); });
     files.commit();
   }
-  if (!is_quiet) print(claim, check);
-  return check.holds ? done : not_certified;
+  if (!is_quiet) print(answer);
+  return answer.holds ? done : not_certified;
 }
 
-void Verify::print(const Certificate& claim, const Certificate_check& check) const
+void Verify::print(const Answer& answer) const
 {
-  if (check.holds) {
+  if (answer.holds) {
     std::cout << "the certificate holds: " << input << " and " << output << " lie within "
-              << check.bound << " of each other (tolerance " << claim.tolerance() << ")\n";
+              << answer.bound << " of each other (tolerance " << answer.tolerance << ")\n";
   } else {
-    std::cout << "the certificate does not hold: " << check.reason << '\n';
+    std::cout << "the certificate does not hold: " << answer.reason << '\n';
   }
 }
 

@@ -970,6 +970,28 @@ class Compare(Case):
             self.assertEqual(len(interval["witness"]["point"]), 3)
         self.assertIn("Hausdorff distance", self.succeed("compare", "a.off", "b.off").stdout)
 
+    def test_certificate_of_two_meshes_is_checked(self):
+        tolerance = ("-t", "0.26", "--certificate", "ab.cert")
+        report = self.report("compare", "a.off", "b.off", *tolerance)
+        self.assertTrue(report["certificate"]["written"])
+        checked = self.report("verify", "a.off", "b.off", "ab.cert")
+        self.assertEqual(checked["certificate"]["kind"], "covering")
+        self.assertTrue(checked["certificate"]["holds"])
+        self.assertLessEqual(checked["certificate"]["bound"], 0.26)
+        other = self.run_surety("verify", "a.off", "a.off", "ab.cert")
+        self.assertEqual(other.returncode, 4)
+        self.assertIn("does not hold", other.stdout)
+        (self.folder / "cut.cert").write_text((self.folder / "ab.cert").read_text()[:500])
+        self.refuse(BAD_INPUT, "ends too early", "verify", "a.off", "b.off", "cut.cert")
+
+    def test_no_certificate_is_written_of_meshes_too_far_apart(self):
+        refuted = self.run_surety("compare", "a.off", "b.off", "-t", "0.2", "--certificate", "c")
+        self.assertEqual(refuted.returncode, 4)
+        self.assertFalse((self.folder / "c").exists())
+        self.refuse(USAGE, "--tolerance", "compare", "a.off", "b.off", "--certificate", "c")
+        self.refuse(USAGE, "replace an input", "compare", "a.off", "b.off", "-t", "1",
+                    "--certificate", "b.off")
+
     def test_needle_is_seen_in_one_direction(self):
         flat = grid(8, lambda x, y: 0)
         needle = grid(8, lambda x, y: 1 if (x, y) == (0.5, 0.5) else 0)

@@ -7,6 +7,7 @@
 #include <surety/background_metric.h>
 #include <surety/certificate.h>
 #include <surety/correspondence.h>
+#include <surety/covering_certificate.h>
 #include <surety/curvature.h>
 #include <surety/distance.h>
 #include <surety/enrich.h>

@@ -25,6 +25,8 @@
 // that is 7 e m. The test lambda + mu <= 1 is made in floating point, so the exact sum s may reach
 // 1 + e. If it exceeds 1, the item stands for x' = a + (x - a) / s, a point of the triangle; as x -
 // x' = (s - 1) (x' - a), this is e m more: 8 e m, and 32 e m for the vector is enough again.
+// With y in an element as above, v (q - p) + w (r - p) adds 2 + 1, the difference of both 3, and
+// the test v + w <= 1 another one: 14 e m, as above.
 //
 // The norm of a computed vector: 3 e relative (square 1, two sums 2, halved by the root, root 1,
 // rounded up), then a sum and a product: 5 e < 8 e.
@@ -78,6 +80,12 @@ inline double distance_to_vertex(const Point& x, const Point& y)
   return x == y ? 0 : rounded_up_length(difference(x, y), 0);
 }
 
+/// The exact point a + lambda (b - a) + mu (c - a) of a triangle with the corners a, b, c.
+struct Inner_place {
+  std::array<Point, 3> corners;
+  double lambda = 0, mu = 0;
+};
+
 /// The offset of a place from the origin p of an element, and the m of the comment above.
 struct Offset {
   Point vector;
@@ -88,6 +96,14 @@ struct Offset {
     const Point along = difference(x.end, x.start);
     magnitude = (std::max)(largest_coordinate(vector), largest_coordinate(along));
     for (int i = 0; i < 3; ++i) vector[i] += x.lambda * along[i];
+  }
+  Offset(const Inner_place& x, const Point& p)
+  {
+    const auto& [a, b, c] = x.corners;
+    const Point offset = difference(a, p), first = difference(b, a), second = difference(c, a);
+    magnitude = (std::max)(
+        {largest_coordinate(offset), largest_coordinate(first), largest_coordinate(second)});
+    for (int i = 0; i < 3; ++i) vector[i] = offset[i] + x.lambda * first[i] + x.mu * second[i];
   }
 };
 
@@ -101,24 +117,15 @@ inline double distance_to_combination(
   return rounded_up_length(d, 0x1p-47 * m);
 }
 
-/// The exact point a + lambda (b - a) + mu (c - a) of a triangle with the corners a, b, c.
-struct Inner_place {
-  std::array<Point, 3> corners;
-  double lambda = 0, mu = 0;
-};
-
 inline double distance_to_vertex(const Inner_place& x, const Point& y)
 {
-  const auto& [a, b, c] = x.corners;
-  const Point offset = difference(a, y), first = difference(b, a), second = difference(c, a);
-  const double m = (std::max)(
-      {largest_coordinate(offset), largest_coordinate(first), largest_coordinate(second)});
-  Point d;
-  for (int i = 0; i < 3; ++i) d[i] = offset[i] + x.lambda * first[i] + x.mu * second[i];
-  return rounded_up_length(d, 0x1p-47 * m);
+  const Offset offset(x, y);
+  return rounded_up_length(offset.vector, 0x1p-47 * offset.magnitude);
 }
 
-inline double distance_to_segment(const Place& x, const Point& p, const Point& q)
+/// \tparam Any a `Place` or an `Inner_place`
+template <class Any>
+double distance_to_segment(const Any& x, const Point& p, const Point& q)
 {
   const Offset offset(x, p);
   const Point along = difference(q, p);
@@ -127,7 +134,8 @@ inline double distance_to_segment(const Place& x, const Point& p, const Point& q
   return distance_to_combination(offset, along, inside, {0, 0, 0}, 0);
 }
 
-inline double distance_to_triangle(const Place& x, const Point& p, const Point& q, const Point& r)
+template <class Any>
+double distance_to_triangle(const Any& x, const Point& p, const Point& q, const Point& r)
 {
   const double nearest_side = (std::min)(
       {distance_to_segment(x, p, q), distance_to_segment(x, q, r), distance_to_segment(x, r, p)});
