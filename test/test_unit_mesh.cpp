@@ -2,6 +2,7 @@
 //
 // Unit meshes: that they are unit, within the tolerance by every witness, of the same topology,
 // with their curves and corners kept, and that the covering bound behind them is sound.
+#include <surety/covering_certificate.h>
 #include <surety/distance.h>
 #include <surety/geometric_mesh.h>
 #include <surety/remesh.h>
@@ -36,6 +37,8 @@ void expect_promises(
   EXPECT_TRUE(result.certificate.holds());
   EXPECT_LE(result.certificate.bound(), tolerance);
   EXPECT_TRUE(certify_distance(before, after, tolerance).holds());
+  const auto covering = make_covering(before, after, tolerance);
+  EXPECT_TRUE(covering && check_covering(before, after, *covering).holds);
   EXPECT_LE(number_of_self_intersections(after), number_of_self_intersections(before));
   // b(K) is a bound for the points of K.
   const auto deviation = after.property_map<Face, double>("f:deviation").first;
