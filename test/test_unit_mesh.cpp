@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <string>
 
 namespace surety::test {
@@ -216,6 +217,19 @@ TEST(Remesh, takes_fewer_faces_when_asked)
   const Remeshing answer = remesh(few, tolerance, parameters::fewest_faces(true));
   expect_promises(shape, few, tolerance, answer.unit_mesh);
   EXPECT_LT(few.number_of_faces(), close.number_of_faces());
+}
+
+TEST(Remesh, lets_sizes_jump_when_asked)
+{
+  const Mesh shape = ellipsoid(4, 2, 1, .3);
+  const double tolerance = .001 * diagonal_of(shape);
+  Mesh graded = shape, free = shape;
+  remesh(graded, tolerance, parameters::gradation(1.1));
+  const Remeshing answer
+      = remesh(free, tolerance, parameters::gradation(std::numeric_limits<double>::infinity()));
+  expect_promises(shape, free, tolerance, answer.unit_mesh);
+  EXPECT_LT(free.number_of_faces(), graded.number_of_faces());
+  EXPECT_THROW(remesh(free, tolerance, parameters::gradation(.5)), Invalid_input);
 }
 
 TEST(Remesh, fits_round_faces_into_narrow_strips)

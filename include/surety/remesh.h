@@ -54,6 +54,16 @@ inline double positive_or(double value, double otherwise, const char* name)
   return value;
 }
 
+/// Infinity lets sizes jump, and what is below 1 is refused by who limits the gradation.
+template <class NamedParameters>
+double gradation_to_remesh(bool is_for_fewest, const NamedParameters& np)
+{
+  const double beta
+      = CGAL::parameters::choose_parameter(CGAL::parameters::get_parameter(np, gradation), 0.);
+  if (beta != 0) return beta;
+  return is_for_fewest ? remesh_gradation_for_fewest : defaults::gradation;
+}
+
 template <class Mesh, class NamedParameters>
 Features features_to_remesh(const Mesh& mesh, double length, const NamedParameters& np)
 {
@@ -152,7 +162,7 @@ Metric_field metric_to_remesh(
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{gradation}
 ///     \cgalParamDescription{by which factor sizes may grow along an edge of unit length}
-///     \cgalParamType{`double`, at least 1}
+///     \cgalParamType{`double`, at least 1; infinity lets sizes jump}
 ///     \cgalParamDefault{0: 1.3; 1.75 for fewest faces}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{proximity}
@@ -200,10 +210,7 @@ Remeshing remesh(
   internal::require_features_of(mesh, features, function);
   const bool is_for_fewest = choose_parameter(
       get_parameter(np, internal::fewest_faces), internal::defaults::fewest_faces);
-  const double beta = internal::positive_or(
-      choose_parameter(get_parameter(np, internal::gradation), 0.),
-      is_for_fewest ? internal::remesh_gradation_for_fewest : internal::defaults::gradation,
-      "gradation");
+  const double beta = internal::gradation_to_remesh(is_for_fewest, np);
 
   const auto points = internal::vertex_points(mesh, np);
   Curvature_field curvature = estimate_curvatures(
