@@ -2,20 +2,12 @@
 //
 // surety adapt: read a mesh and a field, remesh for both, verify independently, write. Nothing
 // appears on disk before everything has succeeded.
-#include "attributes.h"
 #include "commands.h"
 #include "controls.h"
-#include "html_report.h"
-#include "interruption.h"
-#include "length.h"
 #include "library_adaptation.h"
-#include "library_checks.h"
 #include "library_description.h"
-#include "mesh_reading.h"
-#include "mesh_writing.h"
-#include "output_files.h"
+#include "mesh_command.h"
 #include "report.h"
-#include "soup_reading.h"
 
 #include <cmath>
 #include <iostream>
@@ -35,88 +27,45 @@ const Names<Metric_kind>& names_of_metrics()
   return names;
 }
 
-struct Adapt {
-  std::string input, output, tolerance, solution, background, minimum_size, maximum_size, report;
+struct Adapt final : Mesh_command {
+  std::string solution, background, minimum_size, maximum_size;
   std::optional<double> feature_angle;
   double corner_angle = internal::defaults::corner_angle;
-  Reading reading;
   Adaptation_controls controls;
-  bool is_quiet = false, skips_verification = false;
 
   void run();
 
 private:
-  void announce_outputs();
-  void read();
   Features features_of(const Mesh& mesh) const;
   void read_values();
-  void set_sizes();
   void adapt_input();
   void report_problem(const Invalid_input& error) const;
-  void verify();
-  void write();
-  Json describe() const;
+  Json describe() const override;
   void print() const;
 
-  std::optional<Output_files> files_;
-  Stopwatch watch_;
-  Mesh input_mesh_, output_mesh_, background_mesh_;
-  Attributes attributes_, carried_;
+  Mesh background_mesh_;
   std::vector<double> values_;
-  Mesh_statistics before_, after_;
-  double length_ = 0;
   std::size_t ridges_ = 0, corners_ = 0;
   std::optional<Adaptation> result_;
-  std::optional<Distance_certificate> distance_;
 };
 
 void Adapt::run()
 {
   if (controls.target_vertices.has_value() == controls.target_error.has_value())
     throw Failure(usage, "give either --target-vertices or --target-error");
-  const Length length = Length::parse(tolerance, "--tolerance");
   std::vector<std::string> inputs{input, solution};
   if (!background.empty()) inputs.push_back(background);
-  files_.emplace(inputs);
-  announce_outputs();
-  watch_for_interruption();
+  announce_outputs(inputs, Report_kind::json_or_html);
   read();
-  length_ = length.in_units(diagonal(input_mesh_));
-  adapt_input();
-  verify();
-  write();
-  if (!is_quiet) print();
-}
-
-void Adapt::announce_outputs()
-{
-  if (!is_writable(extension_of(output))) {
-    throw Failure(
-        usage,
-        output + ": the format '" + extension_of(output)
-            + "' cannot be written; give a name that ends in .off, .obj, .ply, .stl or .vtp");
-  }
-  files_->announce(output);
-  if (!report.empty()) {
-    require_possible_report(report);
-    files_->announce(report);
-  }
-}
-
-void Adapt::read()
-{
-  Repairs repairs;
-  input_mesh_ = read_mesh(input, reading, repairs, attributes_);
   if (!background.empty()) background_mesh_ = read_mesh(background, reading);
   read_values();
-  watch_.lap("read");
-  try {
-    before_ = mesh_statistics(input_mesh_);
-  } catch (const Invalid_input& error) {
-    throw Bad_file(input, error.problem(), error.remedy());
-  }
-  watch_.lap("input_statistics");
-  stop_if_interrupted();
+  adapt_input();
+  if (!result_->unit_mesh.certificate.holds())
+    throw Failure(not_certified, "the tolerance was not reached; nothing was written");
+  if (!controls.remeshing.allow_self_intersections) require_no_new_intersections();
+  verify(length_);
+  write(length_);
+  if (!is_quiet) print();
 }
 
 Features Adapt::features_of(const Mesh& mesh) const
@@ -146,15 +95,6 @@ void Adapt::read_values()
       "name the mesh that the solution belongs to with --background");
 }
 
-void Adapt::set_sizes()
-{
-  const auto in_units = [&](const std::string& text, const char* option) {
-    return text.empty() ? 0 : Length::parse(text, option).in_units(diagonal(input_mesh_));
-  };
-  controls.remeshing.minimum_size = in_units(minimum_size, "--min-size");
-  controls.remeshing.maximum_size = in_units(maximum_size, "--max-size");
-}
-
 void Adapt::report_problem(const Invalid_input& error) const
 {
   if (error.argument() == "mesh" && error.function() == "make_solution_metric")
@@ -167,7 +107,8 @@ void Adapt::adapt_input()
 {
   Progress_bar bar(is_quiet);
   output_mesh_ = input_mesh_;
-  set_sizes();
+  controls.remeshing.minimum_size = in_units(minimum_size, "--min-size");
+  controls.remeshing.maximum_size = in_units(maximum_size, "--max-size");
   try {
     const Features features = features_of(input_mesh_);
     ridges_ = features.ridges, corners_ = features.corners;
@@ -178,59 +119,19 @@ void Adapt::adapt_input()
         output_mesh_, features, length_,
         Carried_field{is_same ? input_mesh_ : background_mesh_, behind, values_}, controls,
         Visitor(bar));
-    if (holds_attributes(extension_of(output)))
-      carried_ = carry_attributes(attributes_, input_mesh_, output_mesh_);
+    carry();
   } catch (const Invalid_input& error) {
     report_problem(error);
   }
   watch_.lap("adapt");
-  stop_if_interrupted();
-  after_ = mesh_statistics(output_mesh_);
-  watch_.lap("output_statistics");
-}
-
-void Adapt::verify()
-{
-  if (!result_->unit_mesh.certificate.holds())
-    throw Failure(not_certified, "the tolerance was not reached; nothing was written");
-  if (!controls.remeshing.allow_self_intersections
-      && after_.self_intersections > before_.self_intersections)
-    throw Failure(
-        not_certified,
-        "the result has " + to_text(after_.self_intersections)
-            + " self-intersections, the input has " + to_text(before_.self_intersections)
-            + "; nothing was written; lower the tolerance, or admit this with "
-              "--allow-self-intersections");
-  if (skips_verification) return;
-  distance_ = certify_distance(input_mesh_, output_mesh_, length_);
-  watch_.lap("verify");
-  stop_if_interrupted();
-  if (!distance_->holds())
-    throw Failure(
-        not_certified, "the check of the distance failed; nothing was written; please report this");
-}
-
-void Adapt::write()
-{
-  const Deviation deviation{
-      output_mesh_.add_property_map<Mesh::Face_index, double>("f:deviation", 0).first, length_};
-  files_->write(output, [&](std::ostream& stream) {
-    write_mesh(stream, extension_of(output), output_mesh_, deviation, carried_);
-  });
-  watch_.lap("write");
-  if (!report.empty())
-    files_->write(report, [&](std::ostream& stream) {
-      write_report(stream, report, describe(), {input_mesh_, output_mesh_, deviation});
-    });
-  stop_if_interrupted();
-  files_->commit();
+  finish_output();
 }
 
 Json Adapt::describe() const
 {
   const Unit_mesh_result& made = result_->unit_mesh;
   Json json = new_report("adapt");
-  json["input"] = to_json(input, before_);
+  describe_input(json);
   json["features"] = {{"ridges", ridges_}, {"corners", corners_}};
   json["field"]
       = {{"vertices_asked_for", result_->vertices_for_field},

@@ -3,18 +3,14 @@
 // surety enrich: read, refine towards the smooth surface through the vertices, measure how far that
 // went, write. Nothing appears on disk before everything has succeeded.
 #include "commands.h"
-#include "html_report.h"
 #include "interruption.h"
 #include "length.h"
-#include "library_checks.h"
 #include "library_description.h"
 #include "library_enrichment.h"
 #include "marks.h"
-#include "mesh_reading.h"
+#include "mesh_command.h"
 #include "mesh_writing.h"
-#include "output_files.h"
 #include "report.h"
-#include "soup_reading.h"
 
 #include <algorithm>
 #include <iostream>
@@ -28,86 +24,39 @@ namespace {
 /// Beyond the proven bound, so that the check need not split faces for ever.
 constexpr double slack_of_check = 1.01;
 
-struct Enrich {
-  std::string input, output, tolerance, maximum_size, report;
+struct Enrich final : Mesh_command {
+  std::string maximum_size;
   double feature_angle = 60;
   double corner_angle = internal::defaults::corner_angle;
-  Reading reading;
   Enrichment_controls controls;
-  bool is_quiet = false, skips_verification = false;
 
   void run();
 
 private:
-  void announce_outputs();
-  void read();
   void enrich_input();
   void require_goals() const;
-  void verify();
-  void write();
-  Json describe() const;
+  Json describe() const override;
   void print() const;
 
-  std::optional<Output_files> files_;
-  Stopwatch watch_;
-  Mesh input_mesh_, output_mesh_;
-  Repairs repairs_;
-  Mesh_statistics before_, after_;
-  double length_ = 0;
   Features features_;
   Enrichment result_;
-  std::optional<Distance_certificate> distance_;
 };
 
 void Enrich::run()
 {
-  const Length length = Length::parse(tolerance, "--tolerance");
-  files_.emplace(std::vector<std::string>{input});
-  announce_outputs();
-  watch_for_interruption();
+  announce_outputs({input}, Report_kind::json);
   read();
-  length_ = length.in_units(diagonal(input_mesh_));
   enrich_input();
   require_goals();
-  verify();
-  write();
+  verify(std::max(slack_of_check * result_.deviation, 1e-9 * diagonal(input_mesh_)));
+  write(result_.deviation);
   if (!is_quiet) print();
-}
-
-void Enrich::announce_outputs()
-{
-  if (!is_writable(extension_of(output))) {
-    throw Failure(
-        usage,
-        output + ": the format '" + extension_of(output)
-            + "' cannot be written; give a name that ends in .off, .obj, .ply, .stl, .vtp, .mesh "
-              "or .meshb");
-  }
-  files_->announce(output);
-  if (!report.empty()) {
-    require_json_report(report);
-    files_->announce(report);
-  }
-}
-
-void Enrich::read()
-{
-  input_mesh_ = read_mesh(input, reading, repairs_);
-  watch_.lap("read");
-  try {
-    before_ = mesh_statistics(input_mesh_);
-  } catch (const Invalid_input& error) {
-    throw Bad_file(input, error.problem(), error.remedy());
-  }
-  watch_.lap("input_statistics");
-  stop_if_interrupted();
 }
 
 void Enrich::enrich_input()
 {
-  controls.maximum_size = maximum_size.empty()
-      ? std::numeric_limits<double>::infinity()
-      : Length::parse(maximum_size, "--max-size").in_units(diagonal(input_mesh_));
+  controls.maximum_size = maximum_size.empty() ? std::numeric_limits<double>::infinity()
+                                               : in_units(maximum_size, "--max-size");
   output_mesh_ = input_mesh_;
   features_ = find_features(
       input_mesh_, feature_parameters(feature_angle, corner_angle, constraints_of(input_mesh_)));
@@ -121,13 +70,11 @@ void Enrich::enrich_input()
   stop_if_interrupted();
   result_ = enrich(output_mesh_, features_, length_, enrichment_parameters(controls, support));
   watch_.lap("enrich");
-  stop_if_interrupted();
   if (is_medit(extension_of(output))) {
     mark_features(input_mesh_, features_);
     carry_marks(input_mesh_, features_, output_mesh_);
   }
-  after_ = mesh_statistics(output_mesh_);
-  watch_.lap("output_statistics");
+  finish_output();
 }
 
 void Enrich::require_goals() const
@@ -144,38 +91,10 @@ void Enrich::require_goals() const
   throw Failure(not_certified, problem + "nothing was written");
 }
 
-void Enrich::verify()
-{
-  if (skips_verification) return;
-  const double bound = std::max(slack_of_check * result_.deviation, 1e-9 * diagonal(input_mesh_));
-  distance_ = certify_distance(input_mesh_, output_mesh_, bound);
-  watch_.lap("verify");
-  stop_if_interrupted();
-  if (!distance_->holds())
-    throw Failure(
-        not_certified, "the check of the distance failed; nothing was written; please report this");
-}
-
-void Enrich::write()
-{
-  const Deviation deviation{
-      output_mesh_.add_property_map<Mesh::Face_index, double>("f:deviation", 0).first,
-      result_.deviation};
-  files_->write(output, [&](std::ostream& stream) {
-    write_mesh(stream, extension_of(output), output_mesh_, deviation);
-  });
-  watch_.lap("write");
-  if (!report.empty())
-    files_->write(report, [&](std::ostream& stream) { stream << to_text(describe()); });
-  stop_if_interrupted();
-  files_->commit();
-}
-
 Json Enrich::describe() const
 {
   Json json = new_report("enrich");
-  json["input"] = to_json(input, before_);
-  if (reading.repair) json["input"]["repairs"] = to_json(repairs_);
+  describe_input(json);
   json["features"] = {{"ridges", features_.ridges}, {"corners", features_.corners}};
   json["output"] = to_json(output, after_);
   json["enforced"]

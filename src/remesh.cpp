@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// surety remesh: read, remesh for simulation, verify independently, write. Nothing appears on disk
-// before everything has succeeded.
-#include "attributes.h"
+// surety remesh: makes a mesh for simulation.
 #include "commands.h"
 #include "controls.h"
-#include "html_report.h"
-#include "interruption.h"
 #include "length.h"
-#include "library_checks.h"
 #include "library_description.h"
 #include "library_remeshing.h"
 #include "marks.h"
-#include "mesh_reading.h"
+#include "mesh_command.h"
 #include "mesh_writing.h"
-#include "output_files.h"
 #include "report.h"
-#include "soup_reading.h"
 
 #include <iostream>
 #include <limits>
@@ -33,81 +26,37 @@ const Names<Metric_kind>& names_of_metrics()
   return names;
 }
 
-struct Remesh {
-  std::string input, output, tolerance, minimum_size, maximum_size, size_field, report;
+struct Remesh final : Mesh_command {
+  std::string minimum_size, maximum_size, size_field;
   std::optional<double> feature_angle;
   double corner_angle = internal::defaults::corner_angle;
-  Reading reading;
   Remesh_controls controls;
-  bool is_quiet = false, skips_verification = false;
 
   void run();
 
 private:
-  void announce_outputs();
-  void read();
   Features find_features_of_input() const;
   Medit_solution sizes() const;
   void remesh_input();
-  void verify();
-  void write();
-  Json describe() const;
+  Json describe() const override;
   Json describe_output() const;
   void print() const;
 
-  std::optional<Output_files> files_;
-  Stopwatch watch_;
-  Mesh input_mesh_, output_mesh_;
-  Repairs repairs_;
-  Attributes attributes_, carried_;
-  Mesh_statistics before_, after_;
-  double length_ = 0;
   std::size_t ridges_ = 0, corners_ = 0;
   std::optional<Unit_mesh_result> result_;
-  std::optional<Distance_certificate> distance_;
 };
 
 void Remesh::run()
 {
-  const Length length = Length::parse(tolerance, "--tolerance");
-  files_.emplace(std::vector<std::string>{input});
-  announce_outputs();
-  watch_for_interruption();
+  announce_outputs({input}, Report_kind::json_or_html);
   read();
-  length_ = length.in_units(diagonal(input_mesh_));
   remesh_input();
-  verify();
-  write();
+  if (!result_->certificate.holds())
+    throw Failure(not_certified, "the tolerance was not reached; nothing was written");
+  if (!controls.allow_self_intersections) require_no_new_intersections();
+  verify(length_);
+  write(length_);
   if (!is_quiet) print();
-}
-
-void Remesh::announce_outputs()
-{
-  if (!is_writable(extension_of(output))) {
-    throw Failure(
-        usage,
-        output + ": the format '" + extension_of(output)
-            + "' cannot be written; give a name that ends in .off, .obj, .ply, .stl, .vtp, .mesh "
-              "or .meshb");
-  }
-  files_->announce(output);
-  if (!report.empty()) {
-    require_possible_report(report);
-    files_->announce(report);
-  }
-}
-
-void Remesh::read()
-{
-  input_mesh_ = read_mesh(input, reading, repairs_, attributes_);
-  watch_.lap("read");
-  try {
-    before_ = mesh_statistics(input_mesh_);
-  } catch (const Invalid_input& error) {
-    throw Bad_file(input, error.problem(), error.remedy());
-  }
-  watch_.lap("input_statistics");
-  stop_if_interrupted();
 }
 
 Features Remesh::find_features_of_input() const
@@ -133,9 +82,6 @@ void Remesh::remesh_input()
 {
   Progress_bar bar(is_quiet);
   output_mesh_ = input_mesh_;
-  const auto in_units = [&](const std::string& text, const char* option) {
-    return text.empty() ? 0 : Length::parse(text, option).in_units(diagonal(input_mesh_));
-  };
   controls.minimum_size = in_units(minimum_size, "--min-size");
   controls.maximum_size = in_units(maximum_size, "--max-size");
   try {
@@ -146,8 +92,7 @@ void Remesh::remesh_input()
         = remesh(
               output_mesh_, features, length_, remesh_parameters(controls, sizes(), Visitor(bar)))
               .unit_mesh;
-    if (holds_attributes(extension_of(output)))
-      carried_ = carry_attributes(attributes_, input_mesh_, output_mesh_);
+    carry();
     if (is_medit(extension_of(output))) {
       mark_features(input_mesh_, features);
       carry_marks(input_mesh_, features, output_mesh_);
@@ -159,45 +104,7 @@ void Remesh::remesh_input()
     throw Failure(usage, error.argument() + ": " + error.problem());
   }
   watch_.lap("remesh");
-  stop_if_interrupted();
-  after_ = mesh_statistics(output_mesh_);
-  watch_.lap("output_statistics");
-}
-
-void Remesh::verify()
-{
-  if (!result_->certificate.holds())
-    throw Failure(not_certified, "the tolerance was not reached; nothing was written");
-  if (!controls.allow_self_intersections && after_.self_intersections > before_.self_intersections)
-    throw Failure(
-        not_certified,
-        "the result has " + to_text(after_.self_intersections)
-            + " self-intersections, the input has " + to_text(before_.self_intersections)
-            + "; nothing was written; lower the tolerance, or admit this with "
-              "--allow-self-intersections");
-  if (skips_verification) return;
-  distance_ = certify_distance(input_mesh_, output_mesh_, length_);
-  watch_.lap("verify");
-  stop_if_interrupted();
-  if (!distance_->holds())
-    throw Failure(
-        not_certified, "the check of the distance failed; nothing was written; please report this");
-}
-
-void Remesh::write()
-{
-  const Deviation deviation{
-      output_mesh_.add_property_map<Mesh::Face_index, double>("f:deviation", 0).first, length_};
-  files_->write(output, [&](std::ostream& stream) {
-    write_mesh(stream, extension_of(output), output_mesh_, deviation, carried_);
-  });
-  watch_.lap("write");
-  if (!report.empty())
-    files_->write(report, [&](std::ostream& stream) {
-      write_report(stream, report, describe(), {input_mesh_, output_mesh_, deviation});
-    });
-  stop_if_interrupted();
-  files_->commit();
+  finish_output();
 }
 
 Json Remesh::describe_output() const
@@ -214,8 +121,7 @@ Json Remesh::describe_output() const
 Json Remesh::describe() const
 {
   Json json = new_report("remesh");
-  json["input"] = to_json(input, before_);
-  if (reading.repair) json["input"]["repairs"] = to_json(repairs_);
+  describe_input(json);
   json["features"] = {{"ridges", ridges_}, {"corners", corners_}};
   json["output"] = describe_output();
   Json& certificate = json["certificate"];
