@@ -22,6 +22,7 @@
 #include <cmath>
 #include <istream>
 #include <ostream>
+#include <string>
 #include <string_view>
 
 namespace surety::internal::checker {
