@@ -82,11 +82,11 @@ public:
 
   Covering read()
   {
-    if (number_after<unsigned>("surety-covering") != covering_format_version)
+    if (lines_.count<unsigned>("surety-covering") != covering_format_version)
       lines_.fail("this version of the format is not known");
     Covering result;
-    result.tolerance = length_after("tolerance");
-    result.bound = length_after("bound");
+    result.tolerance = lines_.length("tolerance");
+    result.bound = lines_.length("bound");
     read_lists("input", result.of_input);
     read_lists("output", result.of_output);
     lines_.advance();
@@ -96,28 +96,9 @@ public:
   }
 
 private:
-  template <class Integer>
-  Integer number_after(std::string_view keyword)
-  {
-    lines_.advance();
-    lines_.keyword(keyword);
-    const auto result = lines_.template integer<Integer>();
-    lines_.expect_end();
-    return result;
-  }
-  double length_after(std::string_view keyword)
-  {
-    lines_.advance();
-    lines_.keyword(keyword);
-    const double result = lines_.real();
-    lines_.expect_end();
-    if (std::signbit(result)) lines_.fail("the " + std::string(keyword) + " is negative");
-    return result;
-  }
-
   void read_lists(std::string_view keyword, Covering::Faces& faces)
   {
-    for (Index left = number_after<Index>(keyword); left > 0; --left) {
+    for (Index left = lines_.count<Index>(keyword); left > 0; --left) {
       lines_.advance();
       const Index number = lines_.integer();
       for (Index i = 0; i < number; ++i) {

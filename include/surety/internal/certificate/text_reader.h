@@ -95,6 +95,28 @@ public:
     return negative ? -value : value;
   }
 
+  /// A line of a keyword and an integer.
+  template <class Integer>
+  Integer count(std::string_view keyword)
+  {
+    advance();
+    this->keyword(keyword);
+    const Integer value = integer<Integer>();
+    expect_end();
+    return value;
+  }
+
+  /// A line of a keyword and a length.
+  double length(std::string_view keyword)
+  {
+    advance();
+    this->keyword(keyword);
+    const double value = real();
+    expect_end();
+    if (std::signbit(value)) fail("the " + std::string(keyword) + " is negative");
+    return value;
+  }
+
 private:
   /// Printable, and short enough for a message.
   static std::string shown(std::string_view text)
@@ -131,27 +153,6 @@ public:
   }
 
 private:
-  /// A line of a keyword and an integer.
-  template <class Integer>
-  Integer count(std::string_view keyword)
-  {
-    lines_.advance();
-    lines_.keyword(keyword);
-    const Integer value = lines_.template integer<Integer>();
-    lines_.expect_end();
-    return value;
-  }
-
-  double length(std::string_view keyword)
-  {
-    lines_.advance();
-    lines_.keyword(keyword);
-    const double value = lines_.real();
-    lines_.expect_end();
-    if (std::signbit(value)) lines_.fail("the " + std::string(keyword) + " is negative");
-    return value;
-  }
-
   void require(const std::string& defect) const
   {
     if (!defect.empty()) lines_.fail(defect);
@@ -165,18 +166,18 @@ private:
 
   void read_header(Header& header)
   {
-    if (count<unsigned>("surety-certificate") != text_format_version) {
+    if (lines_.count<unsigned>("surety-certificate") != text_format_version) {
       lines_.fail("this version of the format is not known");
     }
-    header.tolerance = length("tolerance");
-    header.bound = length("bound");
-    const unsigned cancelled = count<unsigned>("cancelled");
+    header.tolerance = lines_.length("tolerance");
+    header.bound = lines_.length("bound");
+    const unsigned cancelled = lines_.count<unsigned>("cancelled");
     if (cancelled > 1) lines_.fail("expected 0 or 1");
     header.cancelled = cancelled == 1;
-    header.operations.collapses = count<std::size_t>("collapses");
-    header.operations.flips = count<std::size_t>("flips");
-    header.operations.relocations = count<std::size_t>("relocations");
-    for (unsigned left = count<unsigned>("refused"); left > 0; --left) read_refusal(header);
+    header.operations.collapses = lines_.count<std::size_t>("collapses");
+    header.operations.flips = lines_.count<std::size_t>("flips");
+    header.operations.relocations = lines_.count<std::size_t>("relocations");
+    for (unsigned left = lines_.count<unsigned>("refused"); left > 0; --left) read_refusal(header);
   }
 
   void read_refusal(Header& header)
@@ -195,7 +196,7 @@ private:
 
   void read_images(Correspondence& record)
   {
-    const Index number = count<Index>("images");
+    const Index number = lines_.count<Index>("images");
     reserve(record.images, number);
     for (Index i = 0; i < number; ++i) {
       lines_.advance();
@@ -226,7 +227,7 @@ private:
 
   void read_crossings(Correspondence& record)
   {
-    const Index number = count<Index>("edges");
+    const Index number = lines_.count<Index>("edges");
     reserve(record.edges, number);
     record.offsets.assign(1, 0);
     for (Index i = 0; i < number; ++i) {
@@ -260,7 +261,7 @@ private:
 
   void read_inner(Correspondence& record)
   {
-    const Index number = count<Index>("inner");
+    const Index number = lines_.count<Index>("inner");
     reserve(record.inner, number);
     for (Index i = 0; i < number; ++i) {
       lines_.advance();
@@ -279,7 +280,7 @@ private:
 
   void read_ridges(Correspondence& record)
   {
-    const Index number = count<Index>("ridges");
+    const Index number = lines_.count<Index>("ridges");
     reserve(record.ridges, number);
     for (Index i = 0; i < number; ++i) {
       lines_.advance();
