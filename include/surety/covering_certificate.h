@@ -46,7 +46,8 @@ struct Covering_check {
 /// but their place. Made from the meshes as they have been read from their
 /// files, the record is about these files, and what rounding a format does is in it.
 ///
-/// Takes O(n log n + k) for n faces and k pairs of faces within the tolerance of each other.
+/// Takes O(n log n + k) for n faces and k pairs of faces within the tolerance of each other, times
+/// the parts that faces have to be divided into.
 ///
 /// \param input,output two triangle meshes
 /// \param tolerance a length, positive
@@ -136,7 +137,6 @@ Covering_check check_covering(
     answer.reason = "the output: " + answer.reason;
     return answer;
   }
-  answer.holds = true;
   answer.bound = 0;
   answer.face_bounds = back.face_bounds();
   for (double& b : answer.face_bounds) {
@@ -144,6 +144,7 @@ Covering_check check_covering(
     answer.bound = (std::max)(answer.bound, b);
   }
   for (const double b : forth.face_bounds()) answer.bound = (std::max)(answer.bound, b / scale);
+  answer.holds = true;
   return answer;
 }
 
@@ -152,9 +153,8 @@ Covering_check check_covering(
 /// The format is described in the manual. Whether the stream took everything is to be asked of the
 /// stream.
 ///
-/// \throws Invalid_input when the record cannot be read back: a length is negative or not finite,
-/// or
-///         lists do not fit together.
+/// \throws Invalid_input when the record cannot be read back, because a length is negative or not
+///         finite, or lists do not fit together.
 inline void write_covering(std::ostream& out, const Covering& covering)
 {
   internal::checker::write_covering_text(out, covering);

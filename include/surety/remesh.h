@@ -36,9 +36,8 @@ namespace internal {
 /// face within the tolerance of a smooth surface that its vertices lie on. Vertices that may leave
 /// it have twice the room, and the bound decides in the end.
 constexpr double remesh_gap_constant = 1. / 12;
-/// The tolerance stops isotropic sizes much sooner: where it does not, they may be as large as
-/// this. Stretched faces follow a larger metric down to where fewer than 70 % of the edges are unit
-/// in it.
+/// Where the tolerance allows it, isotropic sizes may be much larger. Larger anisotropic ones take
+/// few faces away, and leave fewer edges unit in the metric that was asked for.
 inline double remesh_gap_constant_for_fewest(Metric_kind kind)
 {
   return kind == Metric_kind::isotropic ? 1. / 45 : 1. / 20;

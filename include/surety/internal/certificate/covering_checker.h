@@ -63,8 +63,7 @@ private:
   using Part = std::array<Corner, 3>;
 
   static constexpr unsigned deepest = 20;
-  /// A record that needs more parts for one face is refused: with a slack of a thousandth of the
-  /// bound, faces a hundred bounds long take some thousands.
+  /// A record that needs more parts for one face is refused, so that the check of any file ends.
   static constexpr std::size_t most_parts = 4'000'000;
 
   bool covers(Index f)
